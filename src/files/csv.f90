@@ -16,10 +16,10 @@ module faststrip_files_csv
                                           find_row, row_place, go_to_row, close_stream, scan_csv, &
                                           find_row_place
     use faststrip_files_csv_writer, only: csv_writer_t, open_csv, put_comment, put_header, &
-                                          put_cell, end_row, put_line, put_text, close_csv, &
-                                          abort_csv, collect_csv, collected, collected_length, &
-                                          forget_collected, real_text, failure_words, &
-                                          finish_tables
+                                          put_cell, put_cells, put_empty_cells, end_row, &
+                                          put_line, put_text, close_csv, abort_csv, collect_csv, &
+                                          collected, collected_length, forget_collected, &
+                                          real_text, failure_words, finish_tables
     use faststrip_files_temporary, only: find_prefix, temporary_ending, most_temporaries, &
                                          name_temporary, find_free_temporary, find_final_path
     implicit none
@@ -32,7 +32,8 @@ module faststrip_files_csv
     public :: open_stream, find_row, row_place, go_to_row, close_stream, scan_csv, find_row_place
     public :: find_prefix, temporary_ending, most_temporaries, name_temporary
     public :: find_free_temporary, find_final_path
-    public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, put_text
+    public :: open_csv, put_comment, put_header, put_cell, put_cells, put_empty_cells, end_row
+    public :: put_line, put_text
     public :: close_csv, abort_csv, finish_tables
     public :: collect_csv, collected, collected_length, forget_collected
     public :: real_text, failure_words

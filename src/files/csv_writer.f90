@@ -16,7 +16,8 @@ module faststrip_files_csv_writer
     private
 
     public :: csv_writer_t
-    public :: open_csv, put_comment, put_header, put_cell, end_row, put_line, close_csv, abort_csv
+    public :: open_csv, put_comment, put_header, put_cell, put_cells, put_empty_cells, end_row
+    public :: put_line, close_csv, abort_csv
     public :: collect_csv, collected, collected_length, forget_collected, put_text
     public :: real_text, failure_words
     public :: table_finisher, finish_tables
@@ -45,6 +46,11 @@ module faststrip_files_csv_writer
     interface put_cell
         module procedure put_text_cell, put_integer_cell, put_real_cell
     end interface put_cell
+
+    !> Add several cells to the row.
+    interface put_cells
+        module procedure put_text_cells, put_integer_cells, put_real_cells, put_known_cells
+    end interface put_cells
 
     abstract interface
         !> Make another file of a table that is whole.
@@ -179,13 +185,63 @@ contains
     subroutine put_header(writer, names)
         type(csv_writer_t), intent(inout) :: writer  !! an open file
         character(len=*), intent(in) :: names(:)     !! the names; trailing blanks do not count
-        integer :: i
 
-        do i = 1, size(names)
-            call put_text_cell(writer, trim(names(i)))
-        end do
+        call put_text_cells(writer, names)
         call end_row(writer)
     end subroutine put_header
+
+    subroutine put_text_cells(writer, values)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        character(len=*), intent(in) :: values(:)   !! texts; trailing blanks do not count
+        integer :: i
+
+        do i = 1, size(values)
+            call put_text_cell(writer, trim(values(i)))
+        end do
+    end subroutine put_text_cells
+
+    subroutine put_integer_cells(writer, values)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        integer, intent(in) :: values(:)            !! any
+        integer :: i
+
+        do i = 1, size(values)
+            call put_integer_cell(writer, values(i))
+        end do
+    end subroutine put_integer_cells
+
+    subroutine put_real_cells(writer, values, is_known)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        real(wp), intent(in) :: values(:)           !! any; not finite: an empty cell
+        logical, intent(in), optional :: is_known   !! else empty cells, too; default true
+        integer :: i
+
+        do i = 1, size(values)
+            call put_real_cell(writer, values(i), is_known)
+        end do
+    end subroutine put_real_cells
+
+    subroutine put_known_cells(writer, values, known)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        real(wp), intent(in) :: values(:)           !! any; not finite: an empty cell
+        logical, intent(in) :: known(:)             !! each; else an empty cell, too
+        integer :: i
+
+        do i = 1, size(values)
+            call put_real_cell(writer, values(i), known(i))
+        end do
+    end subroutine put_known_cells
+
+    !> Add empty cells to the row.
+    subroutine put_empty_cells(writer, n)
+        type(csv_writer_t), intent(inout) :: writer !! an open file
+        integer, intent(in) :: n                    !! how many
+        integer :: i
+
+        do i = 1, n
+            call append_cell(writer, '')
+        end do
+    end subroutine put_empty_cells
 
     subroutine put_text_cell(writer, value)
         type(csv_writer_t), intent(inout) :: writer !! an open file

@@ -1,8 +1,9 @@
 !> `faststrip contact`: one contact of a case file.
 module faststrip_command_contact
     use faststrip_base_status, only: status_t, st_ok
-    use faststrip_files_csv, only: csv_writer_t, open_csv, close_csv
-    use faststrip_command_program_console, only: fail_on_error, concerns_gap, note, usage_error
+    use faststrip_files_csv, only: csv_writer_t, open_csv
+    use faststrip_command_program_console, only: fail_on_error, concerns_gap, note, usage_error, &
+                                                 end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_number
     use faststrip_command_program_outputs, only: open_outputs, close_outputs
@@ -127,12 +128,10 @@ contains
         call fail_on_error(status)
         call put_strips(writer, case%name, solver%workspace%strips, &
                         solver%workspace%strip_forces, case, prepared%rigid_contact%radius)
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
         call open_csv(writer, plot_file('gap.csv'), status)
         call fail_on_error(status)
         call put_gap(writer, solver%workspace%solver%curve, case%smoothing)
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine keep_files
 end module faststrip_command_contact

@@ -5,7 +5,8 @@ module faststrip_command_contact_prepared_case
     use faststrip_base_status, only: status_t, clear_status, is_error, number_text
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_at_angle
-    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   end_row
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_files_gap, only: read_gap_file
@@ -109,9 +110,7 @@ contains
                              trim(number_text(1.0e3_wp*smoothing)) // ' um, rms')
         call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
         do i = 1, gap%n
-            call put_cell(writer, gap%y(i))
-            call put_cell(writer, gap%h(i))
-            call put_cell(writer, gap%inv2r(i))
+            call put_cells(writer, [gap%y(i), gap%h(i), gap%inv2r(i)])
             call end_row(writer)
         end do
     end subroutine put_gap
@@ -147,8 +146,7 @@ contains
             call profile_at(profile, y, z, dz, d2z, status)
             if (is_error(status)) cycle
             call put_cell(writer, name)
-            call put_cell(writer, y + y_offset)
-            call put_cell(writer, z + z_offset)
+            call put_cells(writer, [y + y_offset, z + z_offset])
             call end_row(writer)
         end do
     end subroutine put_profile

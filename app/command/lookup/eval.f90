@@ -4,16 +4,15 @@ module faststrip_command_lookup_eval
     use faststrip_base_status, only: status_t, is_error, set_status, status_word, number_text, &
                                      st_bad_argument
     use faststrip_base_text, only: integer_text
-    use faststrip_command_program_console, only: fail, fail_on_error, note, put_origin, &
-                                                 exit_bad_input, progress
+    use faststrip_command_program_console, only: fail, fail_on_error, note, exit_bad_input, &
+                                                 progress, begin_table, end_table
     use faststrip_command_lookup_file, only: read_table
     use faststrip_command_lookup_columns, only: hertz_columns, wheel_columns, contact_columns, &
                                                 force_columns, hertz_names, wheel_names
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_word
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
-                                   column_index, cell_text, cell_number, open_csv, put_cell, &
-                                   end_row, close_csv
+                                   column_index, cell_text, cell_number, put_cell, end_row
     use faststrip_lookup_faces, only: n_forces, lookup_linear, lookup_cubic
     use faststrip_lookup_hertz, only: look_up_hertz, n_lookup_state
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, most_slots
@@ -77,9 +76,7 @@ contains
             if (with_jacobian) new = [new, derivatives(hertz_names)]
         end if
         call find_columns(states, needed, new, column)
-        call open_csv(writer, option_text(command, '-o', '-'), status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, option_text(command, '-o', '-'))
         do i = 1, states%n_columns
             call put_cell(writer, states%names(i)%text)
         end do
@@ -109,8 +106,7 @@ contains
             end if
             call progress('states', row, states%n_rows)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
                                     // integer_text(states%n_rows) // ' states failed')
     end subroutine run_lookup_eval

@@ -4,8 +4,8 @@ module faststrip_command_lookup_test
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
     use faststrip_command_program_clock, only: cpu_microseconds
-    use faststrip_command_program_console, only: fail, fail_on_error, usage_error, put_origin, &
-                                                 exit_bad_input
+    use faststrip_command_program_console, only: fail, fail_on_error, usage_error, exit_bad_input, &
+                                                 begin_table, end_table
     use faststrip_command_lookup_columns, only: hertz_columns, wheel_columns, error_names, &
                                                 state_kinds, orders, force_columns
     use faststrip_command_lookup_family, only: families_t, make_family, release_family
@@ -15,8 +15,7 @@ module faststrip_command_lookup_test
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_integer
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
-                                   cell_number, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+                                   cell_number, put_comment, put_header, put_cell, end_row
     use faststrip_lookup_faces, only: n_forces, lookup_linear, lookup_cubic
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel
     use faststrip_tabulate_family, only: family_t, judged_t, states_all
@@ -144,9 +143,7 @@ contains
         type(status_t) :: status
         integer :: kind, order, k, i
 
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, path)
         if (is_wheel) then
             call put_comment(writer, integer_text(tested(1)) // ' fresh states, ' &
                              // integer_text(tested(2)) // ' in cells where contacts come or ' &
@@ -171,8 +168,7 @@ contains
                 end do
             end do
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine write_errors
 
     !> States with their sums, solved and looked up.
@@ -188,9 +184,7 @@ contains
         type(status_t) :: status
         integer :: i, j, k
 
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, path)
         if (is_wheel) then
             call put_comment(writer, 'sums over the contacts of a wheel: creep forces in the ' &
                              // 'track, their moment, the lateral part of the normal forces')
@@ -221,8 +215,7 @@ contains
             end associate
             call end_row(writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine write_states
 
     !> Processor time of a look-up with derivatives, us: the least of some passes.

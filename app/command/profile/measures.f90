@@ -5,7 +5,8 @@ module faststrip_command_profile_measures
     use faststrip_geometry_arc_spline, only: find_kinks
     use faststrip_geometry_touchable, only: body_wheel, body_rail
     use faststrip_geometry_wear, only: rail_wear_t
-    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, put_empty_cells, &
+                                   end_row
     use faststrip_files_profile_taken, only: taken_profile_t
     use faststrip_command_program_console, only: printable
     implicit none
@@ -99,9 +100,7 @@ contains
         if (is_error(measures%status)) then
             call put_cell(writer, trim(measures%points%format))
             call put_cell(writer, kind_word(measures%points%kind))
-            do i = 4, size(columns) - 2
-                call put_cell(writer, '')
-            end do
+            call put_empty_cells(writer, size(columns) - 5)
             call put_cell(writer, trim(status_word(measures%status%code)))
             call put_cell(writer, printable(trim(measures%status%message)))
         else
@@ -125,24 +124,18 @@ contains
             call put_cell(writer, trim(points%format))
             call put_cell(writer, kind_word(points%kind))
             call put_cell(writer, n)
-            call put_cell(writer, minval(y))
-            call put_cell(writer, maxval(y))
-            call put_cell(writer, minval(z))
-            call put_cell(writer, maxval(z))
+            call put_cells(writer, [minval(y), maxval(y), minval(z), maxval(z)])
             call put_cell(writer, measures%flange%sd, is_known=measures%flange%is_known)
             call put_cell(writer, measures%flange%sh, is_known=measures%flange%is_known)
             call put_cell(writer, measures%flange%qr, is_known=measures%flange%is_known)
-            call put_cell(writer, sum(chord))
-            call put_cell(writer, minval(chord))
-            call put_cell(writer, maxval(chord))
-            call put_cell(writer, y(maxloc(chord, dim=1)))
+            call put_cells(writer, [sum(chord), minval(chord), maxval(chord), &
+                                    y(maxloc(chord, dim=1))])
             call put_cell(writer, trim(merge('field', 'gauge', points%y_sense > 0)))
             call put_cell(writer, trim(merge('down', 'up  ', points%z_sense > 0)))
             call put_cell(writer, trim(merge('gauge', 'field', points%is_reversed)))
             call put_cell(writer, points%unit_mm)
-            call put_cell(writer, points%n_sections)
-            call put_cell(writer, count(measures%is_kink))
-            call put_cell(writer, size(measures%part%point))
+            call put_cells(writer, [points%n_sections, count(measures%is_kink), &
+                                    size(measures%part%point)])
             call put_cell(writer, measures%profile%y_first, is_known=points%kind > 0)
             call put_cell(writer, measures%profile%y_last, is_known=points%kind > 0)
             call put_cell(writer, minval(measures%curvature), is_known=size(measures%curvature) > 0)

@@ -3,7 +3,7 @@ module faststrip_command_profile
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_text_t, csv_writer_t, open_csv, put_comment, close_csv
+    use faststrip_files_csv, only: csv_text_t, csv_writer_t, put_comment
     use faststrip_files_profile, only: read_profile, profile_options_t, profile_file_t, &
                                        body_wheel, body_rail
     use faststrip_files_profile_writer, only: write_profile, check_profile_name
@@ -13,7 +13,8 @@ module faststrip_command_profile
     use faststrip_geometry_curation, only: resample
     use faststrip_geometry_wear, only: wear_depths, align_by_field_side, measure_rail_wear
     use faststrip_command_program_console, only: fail, fail_on_error, note, usage_error, &
-                                                 put_origin, version_text, printable, exit_bad_input
+                                                 version_text, printable, exit_bad_input, &
+                                                 begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_word
     use faststrip_command_settings_method_options, only: setting_options, read_option
@@ -234,9 +235,7 @@ contains
         type(status_t) :: status
         integer :: i
 
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, path)
         do i = 1, size(measures)
             if (len(measures(i)%words) > 0) &
                 call put_comment(writer, printable(measures(i)%path // ': ' // measures(i)%words))
@@ -245,8 +244,7 @@ contains
         do i = 1, size(measures)
             call put_measures(writer, measures(i))
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine write_table
 
     subroutine write_points(path, measures)

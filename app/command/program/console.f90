@@ -5,7 +5,7 @@ module faststrip_command_program_console
                                      st_too_few_points, st_no_contact, st_no_hertz_ellipse, &
                                      st_no_convergence, st_out_of_range, st_no_finite_patch, &
                                      st_linear_algebra
-    use faststrip_files_csv, only: csv_writer_t, put_comment
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, close_csv
     use faststrip_files_printable, only: printable
     use faststrip_base_text, only: integer_text
     use faststrip_command_program_machine, only: compiler_name, compiler_flags
@@ -16,7 +16,8 @@ module faststrip_command_program_console
 
     public :: fail, fail_on_error, concerns_gap, usage_error, note, say, progress
     public :: hold, tell_held
-    public :: name_program, program_name, version_text, put_origin, printable
+    public :: name_program, program_name, version_text, printable
+    public :: begin_table, end_table, put_origin
     public :: exit_bad_input, exit_usage, exit_no_convergence
 
     !> Exit codes.
@@ -176,6 +177,28 @@ contains
 
         text = program_name() // ' ' // version // ' rev ' // trim(revision)
     end function version_text
+
+    !> Begin a table: open its file and say what made it. Ends the program if that cannot be done.
+    subroutine begin_table(writer, path)
+        type(csv_writer_t), intent(out) :: writer !! to be closed by `end_table`
+        character(len=*), intent(in) :: path      !! name of the file, or `-`
+
+        type(status_t) :: status
+
+        call open_csv(writer, path, status)
+        call fail_on_error(status)
+        call put_origin(writer)
+    end subroutine begin_table
+
+    !> Finish a file. Ends the program if it cannot be written; what was there before then stays.
+    subroutine end_table(writer)
+        type(csv_writer_t), intent(inout) :: writer !! closed afterwards
+
+        type(status_t) :: status
+
+        call close_csv(writer, status)
+        call fail_on_error(status)
+    end subroutine end_table
 
     !> The comment lines that say what made a CSV file.
     subroutine put_origin(writer)

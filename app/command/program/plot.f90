@@ -1,10 +1,11 @@
 !> Pictures of results: what the program writes is drawn by a script that is installed with it.
 module faststrip_command_program_plot
     use, intrinsic :: iso_c_binding, only: c_null_char
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t
     use faststrip_base_text, only: lower_case
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_text, close_csv
-    use faststrip_command_program_console, only: fail, fail_on_error, usage_error, exit_bad_input
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_text
+    use faststrip_command_program_console, only: fail, fail_on_error, usage_error, exit_bad_input, &
+                                                 end_table
     use faststrip_command_program_options, only: command_t, option_t, given, option_text
     use faststrip_command_program_system, only: file_kind, kind_file, program_folder, run_program, &
                                                 new_folder, remove_folder, keep_in_mind, &
@@ -94,8 +95,7 @@ contains
         call open_csv(writer, plot_file(name), status)
         call fail_on_error(status)
         call put_text(writer, text)
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine keep_for_plot
 
     !> Draw, if that was asked for; ends the program if it cannot be.

@@ -2,9 +2,9 @@
 module faststrip_command_rows_columns
     use faststrip_base_status, only: status_t
     use faststrip_files_columns, only: columns, column_group, holds_text, holds_counts
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
     use faststrip_files_units, only: column_unit
-    use faststrip_command_program_console, only: fail_on_error, put_origin
+    use faststrip_command_program_console, only: begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text
     implicit none
     private
@@ -30,9 +30,7 @@ contains
         command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
                                     writes=.true.)]
         call parse_command(command, 0)
-        call open_csv(writer, option_text(command, '-o', '-'), status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, option_text(command, '-o', '-'))
         call put_header(writer, [character(len=6) :: 'group', 'column', 'unit', 'holds', &
                                  'member', 'needs', 'what'])
         do i = 1, size(columns)
@@ -53,7 +51,6 @@ contains
                 call end_row(writer)
             end associate
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine run_columns
 end module faststrip_command_rows_columns

@@ -19,7 +19,8 @@ module faststrip_command_rows_result_csv
     use faststrip_contact_method, only: contact_result_t
     use faststrip_contact_methods, only: normal_auto
     use faststrip_contact_wanted, only: auto_steps_t
-    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   put_empty_cells, end_row
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_types, only: tangential_field_t, strip_forces_t, field_power
     use faststrip_command_program_console, only: note, put_origin
@@ -83,9 +84,7 @@ contains
         if (present(tells_times)) with_times = tells_times
         call put_cell(writer, trim(status_word(status%code)))
         if (is_error(status)) then
-            do i = 2, size(result_columns)
-                call put_cell(writer, '')
-            end do
+            call put_empty_cells(writer, size(result_columns) - 1)
             return
         end if
         call find_figures(result, values, known)
@@ -204,23 +203,14 @@ contains
 
         associate (left => strips%y_left(k), right => strips%y_right(k), &
                    length => strips%half_length(k), p0 => strips%p0(k))
-            call put_cell(writer, strips%patch(k))
-            call put_cell(writer, k)
-            call put_cell(writer, left)
-            call put_cell(writer, right)
-            call put_cell(writer, 0.5_wp*(left + right))
-            call put_cell(writer, length)
-            call put_cell(writer, p0)
-            call put_cell(writer, strip_load(p0, length, right - left))
+            call put_cells(writer, [strips%patch(k), k])
+            call put_cells(writer, [left, right, 0.5_wp*(left + right), length, p0, &
+                                    strip_load(p0, length, right - left)])
         end associate
         if (forces%n == strips%n) then
-            call put_cell(writer, forces%fx(k))
-            call put_cell(writer, forces%fy(k))
-            call put_cell(writer, forces%friction_power(k))
+            call put_cells(writer, [forces%fx(k), forces%fy(k), forces%friction_power(k)])
         else
-            do j = 1, 3
-                call put_cell(writer, '')
-            end do
+            call put_empty_cells(writer, 3)
         end if
         call put_known(writer, wear%t_gamma_per_area, k)
         call put_known(writer, wear%mass, k)
@@ -264,15 +254,9 @@ contains
         type(tangential_field_t), intent(in) :: field !! mm, MPa
         integer, intent(in) :: i                      !! one of its elements
 
-        call put_cell(writer, field%x(i))
-        call put_cell(writer, field%y(i))
-        call put_cell(writer, field%area(i))
+        call put_cells(writer, [field%x(i), field%y(i), field%area(i)])
         call put_cell(writer, field%state(i))
-        call put_cell(writer, field%pn(i))
-        call put_cell(writer, field%px(i))
-        call put_cell(writer, field%py(i))
-        call put_cell(writer, field%sx(i))
-        call put_cell(writer, field%sy(i))
-        call put_cell(writer, field_power(field, i))
+        call put_cells(writer, [field%pn(i), field%px(i), field%py(i), field%sx(i), field%sy(i), &
+                                field_power(field, i)])
     end subroutine put_element
 end module faststrip_command_rows_result_csv

@@ -1,7 +1,8 @@
 !> The rows of `contact` and `sweep`: what was solved, by which methods, with what result.
 module faststrip_command_rows_sweep_csv
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   end_row
     use faststrip_command_program_console, only: put_origin, note, tell_held
     use faststrip_command_settings_case_file, only: case_t
     use faststrip_contact_method, only: contact_result_t
@@ -64,21 +65,11 @@ contains
         call put_cell(writer, prepared%shift)
         call put_cell(writer, trim(normal_method_name(prepared%methods%normal)))
         call put_cell(writer, trim(tangential_method_name(prepared%methods%tangential)))
-        if (prepared%by_load) then
-            call put_cell(writer, prepared%load)
-        else if (is_error(status)) then
-            call put_cell(writer, '')
-        else
-            call put_cell(writer, result%normal%load)
-        end if
-        if (len(case%gap_file) > 0) then
-            call put_cell(writer, '')
-        else
-            call put_cell(writer, prepared%rigid_contact%gamma)
-        end if
-        call put_cell(writer, prepared%creepage%cksi)
-        call put_cell(writer, prepared%creepage%ceta)
-        call put_cell(writer, prepared%creepage%cphi)
+        call put_cell(writer, merge(prepared%load, result%normal%load, prepared%by_load), &
+                      is_known=prepared%by_load .or. .not. is_error(status))
+        call put_cell(writer, prepared%rigid_contact%gamma, is_known=len(case%gap_file) == 0)
+        call put_cells(writer, [prepared%creepage%cksi, prepared%creepage%ceta, &
+                                prepared%creepage%cphi])
         call put_result(writer, result, steps, status)
         call end_row(writer)
     end subroutine put_sweep_row

@@ -1,8 +1,8 @@
 !> `faststrip settings`: what can be set, one row a setting.
 module faststrip_command_settings_list
     use faststrip_base_status, only: status_t
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
-    use faststrip_command_program_console, only: fail_on_error, put_origin
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
+    use faststrip_command_program_console, only: begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text
     use faststrip_command_settings_table, only: settings, full_words
     implicit none
@@ -28,9 +28,7 @@ contains
         command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
                                     writes=.true.)]
         call parse_command(command, 0)
-        call open_csv(writer, option_text(command, '-o', '-'), status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, option_text(command, '-o', '-'))
         call put_header(writer, [character(len=7) :: 'group', 'name', 'may_be', 'default', &
                                  'option', 'what'])
         do i = 1, size(settings)
@@ -44,8 +42,7 @@ contains
                 call end_row(writer)
             end associate
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine run_settings
 
     pure function in_a_line(text) result(line)

@@ -4,13 +4,14 @@ module faststrip_command_table_audit
     use faststrip_base_status, only: status_t, clear_status, is_error, set_status, st_file_format
     use faststrip_base_text, only: integer_text, set_place_status
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, column_index, read_cell, &
-                                   open_csv, put_header, put_comment, put_cell, end_row, close_csv
+                                  put_header, put_comment, put_cell, end_row, put_cells, &
+                                  put_empty_cells
     use faststrip_tables_polynomials, only: basis_monomial, basis_chebyshev
     use faststrip_influence_polynomial, only: table_last_distance
     use faststrip_tables_refit, only: table_row_t, check_row, fit_lsq, fit_author, most_degree
     use faststrip_tables_audit, only: audit_t, audit_row
     use faststrip_command_program_console, only: fail_on_error, fail, note, say, progress, &
-                                                 put_origin, exit_bad_input
+                                                 exit_bad_input, begin_table, end_table
     use faststrip_command_table_curves, only: published_row
     use faststrip_command_table_files, only: basis_word, quantity_word, fit_word
     implicit none
@@ -193,9 +194,7 @@ contains
         type(status_t) :: status
         integer :: i
 
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, path)
         call put_comment(writer, 'audit of ' // name // '; residual: E of the row less E of the ' &
                          // 'fresh fit')
         call put_header(writer, [character(len=17) :: 'n', 'L_min', 'L_max', 'quantity', 'basis', &
@@ -206,8 +205,7 @@ contains
         do i = 1, size(audits)
             associate (audit => audits(i), row => audits(i)%row)
                 call put_cell(writer, row%n)
-                call put_cell(writer, row%l_min)
-                call put_cell(writer, row%l_max)
+                call put_cells(writer, [row%l_min, row%l_max])
                 call put_cell(writer, quantity_word(row%half))
                 call put_cell(writer, basis_word(row%basis))
                 call put_cell(writer, row%degree)
@@ -215,32 +213,22 @@ contains
                 call put_cell(writer, 10.0_wp**row%max_at) ! Given: a decimal logarithm
                 call put_cell(writer, row%rms_rel_err)
                 call put_cell(writer, fit_word(fit))
-                call put_cell(writer, audit%fresh%max_rel_err)
-                call put_cell(writer, audit%fresh%rms_rel_err)
-                call put_cell(writer, audit%condition)
-                call put_cell(writer, audit%residual_max)
-                call put_cell(writer, audit%residual_rms)
-                call put_cell(writer, audit%coefficient_max)
+                call put_cells(writer, [audit%fresh%max_rel_err, audit%fresh%rms_rel_err, &
+                                        audit%condition, audit%residual_max, audit%residual_rms, &
+                                        audit%coefficient_max])
                 if (audit%suspect >= 0) then
                     call put_cell(writer, 'c' // integer_text(audit%suspect))
-                    call put_cell(writer, row%c(audit%suspect))
-                    call put_cell(writer, audit%change)
-                    call put_cell(writer, audit%share)
+                    call put_cells(writer, [row%c(audit%suspect), audit%change, audit%share])
                 else
-                    call put_cell(writer, '')
-                    call put_cell(writer, '')
-                    call put_cell(writer, '')
-                    call put_cell(writer, '')
+                    call put_empty_cells(writer, 4)
                 end if
                 call put_cell(writer, audit%corrected_max)
                 call put_cell(writer, trim(merge('yes', 'no ', audit%misprint)))
-                call put_cell(writer, audit%below)
-                call put_cell(writer, audit%above)
+                call put_cells(writer, [audit%below, audit%above])
                 call end_row(writer)
             end associate
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine write_findings
 
     subroutine summarise(to_stderr, name, fit, audits)

@@ -2,15 +2,15 @@
 module faststrip_command_table_curves
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_comment, put_cell, &
-                                   end_row, close_csv, abort_csv
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_comment, put_cell, end_row, &
+                                  abort_csv, put_cells, put_empty_cells
     use faststrip_tables_polynomials, only: basis_monomial, basis_chebyshev, polynomial_value
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_polynomial, only: published_coefficients, table_last_distance
     use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
                                       refit_row, row_relative_error, fit_lsq, fit_minimax_error, &
                                       most_degree
-    use faststrip_command_program_console, only: fail_on_error, put_origin, progress
+    use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
     implicit none
     private
 
@@ -40,9 +40,7 @@ contains
         real(wp) :: l, b
         integer :: i, j
 
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, path)
         call put_comment(writer, 'exact: i_n(b), b = 10**L; published: 2*10**E(L) of Table 1, ' &
                          // 'made for L from -2 to 1; rel_err: published/exact - 1')
         call put_header(writer, [character(len=9) :: 'n', 'L', 'b', 'exact', 'published', &
@@ -53,23 +51,19 @@ contains
                 l = 0.01_wp*j ! Given: steps of L
                 b = 10.0_wp**l ! Given: a decimal logarithm
                 call put_cell(writer, n(i))
-                call put_cell(writer, l)
-                call put_cell(writer, b)
-                call put_cell(writer, strip_influence(n(i), b))
+                call put_cells(writer, [l, b, strip_influence(n(i), b)])
                 if (n(i) <= table_last_distance) then
                     ! Given: as published.
-                    call put_cell(writer, 2.0_wp*10.0_wp**polynomial_value(row%basis, row%c(:6), &
-                                                                           -2.0_wp, 1.0_wp, l))
-                    call put_cell(writer, row_relative_error(row, l))
+                    call put_cells(writer, [2.0_wp*10.0_wp**polynomial_value( &
+                                            row%basis, row%c(:6), -2.0_wp, 1.0_wp, l), &
+                                            row_relative_error(row, l)])
                 else
-                    call put_cell(writer, '')
-                    call put_cell(writer, '')
+                    call put_empty_cells(writer, 2)
                 end if
                 call end_row(writer)
             end do
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine write_curves
 
     !> Errors of fits of degree 0 to 40 in both bases. Fits too ill-conditioned for `faststrip
@@ -93,9 +87,7 @@ contains
         ! What is wrong with the range shows before the file is opened.
         call prepare_refit(refit_t(l_min=l_min, l_max=l_max, degree=0), plan, status)
         call fail_on_error(status)
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, path)
         call put_header(writer, [character(len=11) :: 'basis', 'fit', 'n', 'degree', &
                                  'max_rel_err', 'rms_rel_err', 'condition'])
         do basis = 1, size(bases)
@@ -112,11 +104,9 @@ contains
                         call put_cell(writer, n(i))
                         call put_cell(writer, degree)
                         if (is_error(status)) then
-                            call put_cell(writer, '')
-                            call put_cell(writer, '')
+                            call put_empty_cells(writer, 2)
                         else
-                            call put_cell(writer, row%max_rel_err)
-                            call put_cell(writer, row%rms_rel_err)
+                            call put_cells(writer, [row%max_rel_err, row%rms_rel_err])
                         end if
                         call put_cell(writer, plan%condition)
                         call end_row(writer)
@@ -125,7 +115,6 @@ contains
                 end do
             end do
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine write_degrees
 end module faststrip_command_table_curves

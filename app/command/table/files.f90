@@ -4,11 +4,12 @@ module faststrip_command_table_files
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_text_t, csv_writer_t, open_csv, put_header, put_comment, &
-                                   put_cell, put_line, end_row, close_csv, real_text
+                                   put_cell, put_line, end_row, real_text, put_cells
     use faststrip_tables_polynomials, only: basis_monomial, basis_chebyshev
     use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, fit_minimax_error, &
                                       fit_author, error_points
-    use faststrip_command_program_console, only: fail_on_error, put_origin, version_text
+    use faststrip_command_program_console, only: fail_on_error, put_origin, version_text, &
+                                                 end_table
     implicit none
     private
 
@@ -38,8 +39,7 @@ contains
         case ('json'); call put_json(writer, plan, rows)
         case default; call put_csv(writer, plan, rows)
         end select
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine write_table
 
     subroutine put_csv(writer, plan, rows)
@@ -65,16 +65,14 @@ contains
         call put_header(writer, names)
         do i = 1, size(rows)
             call put_cell(writer, rows(i)%n)
-            call put_cell(writer, rows(i)%l_min)
-            call put_cell(writer, rows(i)%l_max)
+            call put_cells(writer, [rows(i)%l_min, rows(i)%l_max])
             call put_cell(writer, quantity_word(rows(i)%half))
             call put_cell(writer, basis_word(rows(i)%basis))
             call put_cell(writer, rows(i)%degree)
             do k = 0, rows(i)%degree
                 call put_cell(writer, rows(i)%c(k))
             end do
-            call put_cell(writer, rows(i)%max_rel_err)
-            call put_cell(writer, rows(i)%rms_rel_err)
+            call put_cells(writer, [rows(i)%max_rel_err, rows(i)%rms_rel_err])
             call end_row(writer)
         end do
     end subroutine put_csv

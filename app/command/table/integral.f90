@@ -6,7 +6,7 @@ module faststrip_command_table_integral
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
                                    column_index, cell_number, cell_integer, refuse_misspelt, &
-                                   put_header, put_cell, end_row
+                                   put_header, put_cell, end_row, put_cells
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_offcentre, only: strip_influence_at
     use faststrip_influence_polynomial, only: table_influence
@@ -167,8 +167,7 @@ contains
         call put_header(writer, columns)
         do i = 1, size(n)
             call put_cell(writer, n(i))
-            call put_cell(writer, b(i))
-            call put_cell(writer, x(i))
+            call put_cells(writer, [b(i), x(i)])
             call put_cell(writer, method)
             call put_cell(writer, value(i))
             call end_row(writer)

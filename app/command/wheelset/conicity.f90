@@ -324,11 +324,7 @@ contains
             real(wp), intent(in) :: value
             logical, intent(in) :: is_known
 
-            if (is_known) then
-                call put_cell(writer, value)
-            else
-                call put_cell(writer, '')
-            end if
+            call put_cell(writer, value, is_known=is_known)
         end subroutine put_known
     end subroutine write_values
 end module faststrip_command_wheelset_conicity

@@ -2,13 +2,12 @@
 module faststrip_command_wheelset_contact_functions
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, number_text, st_no_contact
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cells, end_row
     use faststrip_geometry_contact_functions, only: side_t, contact_functions_t, &
                                                     find_contact_functions
     use faststrip_geometry_rigid_contact, only: rigid_contact_t
     use faststrip_command_settings_profiles, only: bodies_t
-    use faststrip_command_program_console, only: fail_on_error, put_origin
+    use faststrip_command_program_console, only: fail_on_error, begin_table, end_table
     implicit none
     private
 
@@ -72,33 +71,26 @@ contains
         type(status_t) :: status
         integer :: i
 
-        call open_csv(writer, output, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, output)
         call put_wheelset(writer, case)
         call put_header(writer, function_columns)
         do i = 1, size(functions)
-            call put_cell(writer, functions(i)%shift)
-            call put_cell(writer, functions(i)%delta_r)
-            call put_cell(writer, functions(i)%right%radius)
-            call put_cell(writer, functions(i)%left%radius)
-            call put_cell(writer, functions(i)%right%gamma)
-            call put_cell(writer, functions(i)%left%gamma)
-            call put_cell(writer, functions(i)%roll)
+            call put_cells(writer, [functions(i)%shift, functions(i)%delta_r, &
+                                    functions(i)%right%radius, functions(i)%left%radius, &
+                                    functions(i)%right%gamma, functions(i)%left%gamma, &
+                                    functions(i)%roll])
             call put_place(functions(i)%right)
             call put_place(functions(i)%left)
             call end_row(writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
 
     contains
 
         subroutine put_place(contact)
             type(rigid_contact_t), intent(in) :: contact
 
-            call put_cell(writer, contact%y_wheel)
-            call put_cell(writer, contact%y_rail)
+            call put_cells(writer, [contact%y_wheel, contact%y_rail])
         end subroutine put_place
     end subroutine write_functions
 

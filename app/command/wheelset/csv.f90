@@ -11,7 +11,8 @@ module faststrip_command_wheelset_csv
                                          figure_t_gamma, figure_t_gamma_per_area, figure_x_max, &
                                          figure_y_max, figure_y_min, figures, n_figures
     use faststrip_contact_figure_values, only: find_figures
-    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   put_empty_cells, end_row
     use faststrip_tangential_types, only: tangential_field_t
     use faststrip_wheelset_strips, only: wheel_strips_t
     use faststrip_wheelset_types, only: wheel_result_t, wheel_contact_t
@@ -101,8 +102,7 @@ contains
         type(status_t), intent(in) :: status        !! why there is none
 
         call put_empty(writer, case, side, trim(status_word(status%code)), trim(status%message))
-        call put_cell(writer, '')
-        call put_cell(writer, '')
+        call put_empty_cells(writer, 2)
         call end_row(writer)
     end subroutine put_failed_state
 
@@ -116,14 +116,9 @@ contains
         call put_cell(writer, side)
         call put_cell(writer, 0)
         call put_cell(writer, word)
-        do i = 5, size(names) - 2 ! Given: behind the four above
-            call put_cell(writer, '')
-        end do
+        call put_empty_cells(writer, size(names) - 6) ! Given: behind four, before the last two
         call put_cell(writer, message)
-        call put_cell(writer, '')
-        do i = 1, size(wear_figures)
-            call put_cell(writer, '')
-        end do
+        call put_empty_cells(writer, 1 + size(wear_figures))
     end subroutine put_empty
 
     subroutine put_contact(writer, wheel, contact, has_forces)
@@ -140,17 +135,17 @@ contains
         known(:figure_strips_across) = .true.
         known(figure_t_gamma:figure_t_gamma_per_area) = has_forces
         call put_cell(writer, trim(status_word(contact%status%code)))
-        call put_numbers(writer, contact%place)
+        call put_cells(writer, contact%place)
         call put_cell(writer, contact%angle)
-        call put_numbers(writer, [contact%creepage%cksi, contact%creepage%ceta, &
+        call put_cells(writer, [contact%creepage%cksi, contact%creepage%ceta, &
                                   contact%creepage%cphi])
         call put_figures(writer, first_figures, values, known)
-        call put_numbers(writer, contact%force)
-        call put_numbers(writer, [wheel%z, wheel%roll])
-        call put_numbers(writer, contact%rail)
-        call put_numbers(writer, contact%wheel)
-        call put_numbers(writer, [contact%radius, contact%speed])
-        call put_numbers(writer, contact%force_wheelset)
+        call put_cells(writer, contact%force)
+        call put_cells(writer, [wheel%z, wheel%roll])
+        call put_cells(writer, contact%rail)
+        call put_cells(writer, contact%wheel)
+        call put_cells(writer, [contact%radius, contact%speed])
+        call put_cells(writer, contact%force_wheelset)
         call put_figures(writer, last_figures, values, known)
         if (contact%status%code == 0 .or. is_error(contact%status)) then
             call put_cell(writer, '')
@@ -192,8 +187,8 @@ contains
             call put_cell(writer, side)
             call put_cell(writer, i)
             call put_strip(writer, found%strips, found%forces, wear, k)
-            call put_numbers(writer, found%rail(:, k))
-            call put_numbers(writer, found%wheel(:, k))
+            call put_cells(writer, found%rail(:, k))
+            call put_cells(writer, found%wheel(:, k))
             call end_row(writer)
         end do
     end subroutine put_wheel_strips
@@ -225,15 +220,4 @@ contains
             call end_row(writer)
         end do
     end subroutine put_wheel_field
-
-    subroutine put_numbers(writer, numbers)
-        type(csv_writer_t), intent(inout) :: writer
-        real(wp), intent(in) :: numbers(:)
-
-        integer :: i
-
-        do i = 1, size(numbers)
-            call put_cell(writer, numbers(i))
-        end do
-    end subroutine put_numbers
 end module faststrip_command_wheelset_csv

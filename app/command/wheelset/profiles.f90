@@ -1,7 +1,8 @@
 !> Wheels and rails of one state in the track, for pictures.
 module faststrip_command_wheelset_profiles
     use faststrip_base_kinds, only: wp
-    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   end_row
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_point, rail_origin, turned
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, rail_state_t, &
                                                  wheelset_axes, mirrored_state
@@ -103,10 +104,8 @@ contains
         else
             call put_cell(writer, 'right')
         end if
-        call put_cell(writer, sign_of_side*in_track(1))
-        call put_cell(writer, in_track(2))
-        call put_cell(writer, sign_of_side*on_profile(1))
-        call put_cell(writer, on_profile(2))
+        call put_cells(writer, [sign_of_side*in_track(1), in_track(2), sign_of_side*on_profile(1), &
+                                on_profile(2)])
         call end_row(writer)
     end subroutine put_point
 end module faststrip_command_wheelset_profiles

@@ -4,8 +4,7 @@ module faststrip_command_wheelset
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
     use faststrip_contact_methods, only: tangential_none
-    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, cell_text, open_csv, &
-                                   close_csv
+    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, cell_text, open_csv
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, is_at_rest
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, &
@@ -16,7 +15,7 @@ module faststrip_command_wheelset
     use faststrip_wheelset_field, only: find_wheel_field
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
     use faststrip_command_program_console, only: fail, fail_on_error, note, progress, tell_held, &
-                                                 usage_error, exit_bad_input
+                                                 usage_error, exit_bad_input, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_number
     use faststrip_command_program_plot, only: plot_option, prepare_plot, plot_file
@@ -224,8 +223,7 @@ contains
         type(status_t) :: status
 
         if (.not. run%is_drawn) return
-        call close_csv(run%drawn, status)
-        call fail_on_error(status)
+        call end_table(run%drawn)
     end subroutine close_drawn
 
     ! A state that was named for its profiles has to be one of those to solve.

@@ -1,14 +1,14 @@
 !> `faststrip-lab bench extremes`: how accurate and how steady everything is where it is hardest.
 module faststrip_lab_extremes
     use faststrip_base_status, only: status_t
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment
     use faststrip_lab_extremes_influence, only: references_t, read_references, influence_extremes
     use faststrip_lab_extremes_noise, only: named_case_t, find_contacts, noise_extremes, &
                                             rounding_extremes
     use faststrip_lab_extremes_normal, only: normal_extremes
     use faststrip_lab_extremes_rows, only: put_row_header
     use faststrip_lab_extremes_tangential, only: tangential_extremes
-    use faststrip_command_program_console, only: fail_on_error, put_origin
+    use faststrip_command_program_console, only: begin_table, end_table
     implicit none
     private
 
@@ -37,9 +37,7 @@ contains
         if (wanted('influence')) call read_references(references, influence_numbers)
         if (wanted('noise') .or. wanted('rounding')) &
             call find_contacts(contacts, examples, all_contacts)
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_comment(writer, 'value: relative unless the quantity says otherwise, the ' &
                          // 'uncertainty of the judge added')
         call put_row_header(writer)
@@ -48,8 +46,7 @@ contains
         if (wanted('tangential')) call tangential_extremes(quick, writer)
         if (wanted('noise')) call noise_extremes(quick, all_contacts, writer)
         if (wanted('rounding')) call rounding_extremes(quick, all_contacts, writer)
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
 
     contains
 

@@ -2,8 +2,8 @@
 module faststrip_lab_forces_data
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, close_csv
-    use faststrip_command_program_console, only: fail_on_error, usage_error, progress, put_origin
+    use faststrip_files_csv, only: csv_writer_t, put_comment
+    use faststrip_command_program_console, only: usage_error, progress, begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
                                                  option_integer
     use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_contact
@@ -60,9 +60,7 @@ contains
         if (contacts > huge(contacts) - first) &
             call usage_error('--cases must end before contact ' // integer_text(huge(contacts)) &
                              // ', got ' // integer_text(contacts), command%name)
-        call open_csv(writer, option_text(command, '-o', '-'), written)
-        call fail_on_error(written)
-        call put_origin(writer)
+        call begin_table(writer, option_text(command, '-o', '-'))
         call put_comment(writer, 'NORM and TANG, ' // integer_text(across) &
                          // ' elements across, *_coarse half as many; seed ' // integer_text(seed))
         call put_record_header(writer)
@@ -76,7 +74,6 @@ contains
             call put_record(writer, record)
             call progress('contact', number - first + 1, contacts)
         end do
-        call close_csv(writer, written)
-        call fail_on_error(written)
+        call end_table(writer)
     end subroutine run_force_data
 end module faststrip_lab_forces_data

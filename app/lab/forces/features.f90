@@ -3,9 +3,9 @@ module faststrip_lab_forces_features
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, csv_table_t, read_csv, open_csv, put_comment, &
-                                   put_header, put_cell, end_row, close_csv
-    use faststrip_command_program_console, only: fail_on_error, progress, put_origin
+    use faststrip_files_csv, only: csv_table_t, read_csv, csv_writer_t, put_comment, put_header, &
+                                   put_cell, put_cells, end_row
+    use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
                                                  option_integer
     use faststrip_contact_methods, only: most_strips
@@ -70,9 +70,7 @@ contains
         do file = 1, size(files)
             call read_file(command%arguments(file)%text, files(file)%records)
         end do
-        call open_csv(writer, option_text(command, '-o', '-'), status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, option_text(command, '-o', '-'))
         call put_comment(writer, 'FASTSTRIP, ' // integer_text(strips) // ' x ' &
                          // integer_text(points) // ', and FASTSIM, ' // integer_text(rows) &
                          // ' x ' // integer_text(rows) // ', beside TANG on two grids, its ' &
@@ -100,8 +98,7 @@ contains
             end do
             call progress('file', file, size(files))
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine run_force_features
 
     !> All contacts of a file; ends the program if it cannot be read.
@@ -172,42 +169,27 @@ contains
                                               state%creepage, rows, rows, fastsim, status)
                 if (is_error(status)) &
                     call fail_on_error(status, 'contact ' // integer_text(record%number))
-                call put_cell(writer, record%seed)
-                call put_cell(writer, record%number)
+                call put_cells(writer, [record%seed, record%number])
                 call put_cell(writer, record%family)
                 call put_cell(writer, i)
-                call put_cell(writer, record%load)
-                call put_cell(writer, record%mu)
-                call put_cell(writer, record%material%e_wheel)
-                call put_cell(writer, record%material%nu_wheel)
+                call put_cells(writer, [record%load, record%mu, record%material%e_wheel, &
+                                        record%material%nu_wheel])
                 call put_cell(writer, strips%n)
-                call put_cell(writer, merge(1, 0, &
-                                            has_neck(strips%half_length(:strips%n))))
-                call put_cell(writer, normal_errors%est_err_penetration)
-                call put_cell(writer, normal_errors%est_err_pmax)
-                call put_cell(writer, normal_errors%est_err_area)
-                call put_cell(writer, ellipse%a)
-                call put_cell(writer, ellipse%b)
-                call put_cell(writer, ellipse%y)
-                call put_cell(writer, state%creepage%cksi)
-                call put_cell(writer, state%creepage%ceta)
-                call put_cell(writer, state%creepage%cphi)
+                call put_cell(writer, merge(1, 0, has_neck(strips%half_length(:strips%n))))
+                call put_cells(writer, [normal_errors%est_err_penetration, &
+                                        normal_errors%est_err_pmax, normal_errors%est_err_area, &
+                                        ellipse%a, ellipse%b, ellipse%y, state%creepage%cksi, &
+                                        state%creepage%ceta, state%creepage%cphi])
                 call put_forces(writer, forces)
                 call put_forces(writer, fastsim)
-                call put_cell(writer, extrapolated(state%coarse%fx, state%forces%fx))
-                call put_cell(writer, extrapolated(state%coarse%fy, state%forces%fy))
-                call put_cell(writer, extrapolated(state%coarse%mz, state%forces%mz))
+                call put_cells(writer, [extrapolated(state%coarse%fx, state%forces%fx), &
+                                        extrapolated(state%coarse%fy, state%forces%fy), &
+                                        extrapolated(state%coarse%mz, state%forces%mz)])
                 call put_forces(writer, state%forces)
                 call find_law(ellipse, record%material, record%mu, state%creepage, law, status, u)
-                do k = 1, 3
-                    call put_cell(writer, u(k))
-                end do
-                do k = 1, n_even
-                    call put_cell(writer, shape%even(k))
-                end do
-                do k = 1, n_odd
-                    call put_cell(writer, shape%odd(k))
-                end do
+                call put_cells(writer, u(:3))
+                call put_cells(writer, shape%even)
+                call put_cells(writer, shape%odd)
                 call put_cell(writer, shape%width)
                 call put_cell(writer, points)
                 call end_row(writer)
@@ -226,10 +208,7 @@ contains
         type(csv_writer_t), intent(inout) :: writer
         type(tangential_result_t), intent(in) :: forces
 
-        call put_cell(writer, forces%fx)
-        call put_cell(writer, forces%fy)
-        call put_cell(writer, forces%mz)
-        call put_cell(writer, forces%friction_power)
-        call put_cell(writer, forces%stick_fraction)
+        call put_cells(writer, [forces%fx, forces%fy, forces%mz, forces%friction_power, &
+                                forces%stick_fraction])
     end subroutine put_forces
 end module faststrip_lab_forces_features

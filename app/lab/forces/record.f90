@@ -8,7 +8,7 @@ module faststrip_lab_forces_record
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t
     use faststrip_files_csv, only: csv_writer_t, csv_table_t, put_header, put_cell, end_row, &
-                                   real_text, read_cell
+                                   real_text, read_cell, put_cells
     use faststrip_tangential_types, only: tangential_result_t
     implicit none
     private
@@ -63,14 +63,11 @@ contains
         type(csv_writer_t), intent(inout) :: writer !! an open file with its header
         type(force_record_t), intent(in) :: record
 
-        call put_cell(writer, record%seed)
-        call put_cell(writer, record%number)
+        call put_cells(writer, [record%seed, record%number])
         call put_cell(writer, record%family)
         call put_cell(writer, record%status)
-        call put_cell(writer, record%load)
-        call put_cell(writer, record%mu)
-        call put_cell(writer, record%material%e_wheel)
-        call put_cell(writer, record%material%nu_wheel)
+        call put_cells(writer, [record%load, record%mu, record%material%e_wheel, &
+                                record%material%nu_wheel])
         call put_cell(writer, record%elements)
         associate (states => record%states, n => record%n_states)
             call put_list(writer, states%creepage%cksi, n)

@@ -2,10 +2,10 @@
 module faststrip_lab_fuzz
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
-    use faststrip_command_program_console, only: fail_on_error, usage_error, progress, put_origin, &
-                                                 say
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cells, &
+                                   end_row
+    use faststrip_command_program_console, only: fail_on_error, usage_error, progress, say, &
+                                                 begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_integer, option_word
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
@@ -113,9 +113,7 @@ contains
         if (only /= '' .and. .not. any(all_families == only)) &
             call usage_error('unknown family: ' // only, command%name)
         if (given(command, '-o')) then
-            call open_csv(writer, option_text(command, '-o', ''), written)
-            call fail_on_error(written)
-            call put_origin(writer)
+            call begin_table(writer, option_text(command, '-o', ''))
             call put_fuzz_header(writer)
         end if
         allocate (verdicts(cases), family(cases), numbers(cases))
@@ -131,8 +129,7 @@ contains
             call progress('case', number - first + 1, cases)
         end do
         if (given(command, '-o')) then
-            call close_csv(writer, written)
-            call fail_on_error(written)
+            call end_table(writer)
         end if
         if (n == 0) call usage_error('no case of this family among those asked: ' // only, &
                                      command%name)
@@ -170,12 +167,9 @@ contains
                          // integer_text(case%methods%strips_per_patch) // ' strips')
         call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
         do i = 1, size(case%gap%y)
-            call put_cell(writer, case%gap%y(i))
-            call put_cell(writer, case%gap%h(i))
-            call put_cell(writer, case%gap%inv2r(i))
+            call put_cells(writer, [case%gap%y(i), case%gap%h(i), case%gap%inv2r(i)])
             call end_row(writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine write_gap
 end module faststrip_lab_fuzz

@@ -4,7 +4,7 @@ module faststrip_lab_fuzz_tables
     use faststrip_base_status, only: status_t, is_error, status_word
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row, csv_table_t, &
-                                   read_csv, require_column, cell_text, cell_number
+                                   read_csv, require_column, cell_text, cell_number, put_cells
     use faststrip_command_program_console, only: say, fail, fail_on_error, exit_bad_input
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, all_families
     use faststrip_lab_fuzz_judges, only: verdict_t, is_broken, broken_judges, n_judges, &
@@ -287,25 +287,15 @@ contains
         call put_cell(writer, trim(status_word(verdict%status%code)))
         call put_cell(writer, broken_judges(verdict))
         call put_cell(writer, trim(verdict%status%message))
-        call put_cell(writer, verdict%strips)
-        call put_cell(writer, verdict%result%n_patches)
-        call put_cell(writer, verdict%result%penetration)
-        call put_cell(writer, verdict%result%area)
-        call put_cell(writer, verdict%result%pmax)
-        call put_cell(writer, verdict%result%y_min)
-        call put_cell(writer, verdict%result%y_max)
-        call put_cell(writer, verdict%load_error)
-        call put_cell(writer, verdict%overlap)
-        call put_cell(writer, verdict%overlap_y)
-        do i = 1, size(verdict%est_err)
-            call put_cell(writer, verdict%est_err(i))
-        end do
+        call put_cells(writer, [verdict%strips, verdict%result%n_patches])
+        call put_cells(writer, [verdict%result%penetration, verdict%result%area, &
+                                verdict%result%pmax, verdict%result%y_min, verdict%result%y_max, &
+                                verdict%load_error, verdict%overlap, verdict%overlap_y])
+        call put_cells(writer, verdict%est_err)
         call put_cell(writer, verdict%result%passes)
         call put_cell(writer, verdict%result%iterations)
         call put_cell(writer, verdict%time_us)
-        do i = 1, n_judges
-            call put_cell(writer, verdict%badness(i))
-        end do
+        call put_cells(writer, verdict%badness)
         call end_row(writer)
     end subroutine put_fuzz_row
 end module faststrip_lab_fuzz_tables

@@ -2,14 +2,14 @@
 module faststrip_lab_grid_accuracy
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, number_text, status_word
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   put_empty_cells, end_row
     use faststrip_contact_method, only: workspace_t
     use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_types, only: normal_result_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_pressures, only: solve_by_strips
-    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     implicit none
     private
 
@@ -35,9 +35,7 @@ contains
 
         call read_bench_cases(folder, cases, status)
         call fail_on_error(status)
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_comment(writer, 'errors against CONTACT on 0.1 mm, area extrapolated; ' &
                          // 'relative, patch ends in mm')
         call put_header(writer, [character(len=15) :: 'case', 'strips', 'status', &
@@ -52,9 +50,7 @@ contains
                 call put_cell(writer, trim(choice_names(k)))
                 call put_cell(writer, trim(status_word(status%code)))
                 if (is_error(status)) then
-                    do j = 1, 7
-                        call put_cell(writer, '')
-                    end do
+                    call put_empty_cells(writer, 7)
                 else
                     n = n + 1
                     errors(:, n) = [result%penetration/cases(i)%truth%penetration - 1.0_wp, &
@@ -65,15 +61,13 @@ contains
                     do j = 1, 5
                         call put_cell(writer, errors(j, n))
                     end do
-                    call put_cell(writer, workspace%strips%n)
-                    call put_cell(writer, result%iterations)
+                    call put_cells(writer, [workspace%strips%n, result%iterations])
                 end if
                 call end_row(writer)
             end do
             if (n > 0) call tell(trim(choice_names(k)), abs(errors(:, :n)))
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_accuracy
 
     subroutine tell(name, errors)

@@ -2,15 +2,16 @@
 module faststrip_lab_grid_convergence
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, number_text, status_word
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                  put_empty_cells, end_row
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_grid_ellipse, only: make_ellipse
     use faststrip_lab_pressures, only: solve_by_strips
-    use faststrip_command_program_console, only: fail_on_error, note, progress, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, progress, begin_table, &
+                                                 end_table
     implicit none
     private
 
@@ -43,9 +44,7 @@ contains
 
         call read_bench_cases(folder, cases, status)
         call fail_on_error(status)
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_comment(writer, 'errors relative to the truth: 301 strips of the same solver ' &
                          // 'for the shifts, Hertz for the ellipses')
         call put_header(writer, [character(len=15) :: 'case', 'strips', 'status', &
@@ -66,8 +65,7 @@ contains
             call put_errors(workspace, ellipse, most_strips, 'hertz_' &
                             // trim(number_text(ratios(i))), truth, writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_convergence
 
     !> One row for each number of strips.
@@ -90,13 +88,11 @@ contains
             call put_cell(writer, strip_counts(k))
             call put_cell(writer, trim(status_word(status%code)))
             if (is_error(status)) then
-                call put_cell(writer, '')
-                call put_cell(writer, '')
-                call put_cell(writer, '')
+                call put_empty_cells(writer, 3)
             else
-                call put_cell(writer, result%penetration/truth%penetration - 1.0_wp)
-                call put_cell(writer, result%pmax/truth%pmax - 1.0_wp)
-                call put_cell(writer, result%area/truth%area - 1.0_wp)
+                call put_cells(writer, [result%penetration/truth%penetration - 1.0_wp, &
+                                        result%pmax/truth%pmax - 1.0_wp, &
+                                        result%area/truth%area - 1.0_wp])
             end if
             call end_row(writer)
         end do

@@ -1,11 +1,10 @@
 !> `faststrip-lab bench examples`: the cases of example/cases by several methods.
 module faststrip_lab_grid_examples
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row
     use faststrip_base_kinds, only: wp
     use faststrip_command_settings_case_file, only: case_t
-    use faststrip_command_program_console, only: fail_on_error, put_origin, progress
+    use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
     use faststrip_lab_grid_example_cases, only: example_names, read_example
     use faststrip_contact_methods, only: contact_methods_t, normal_hertz, normal_auto, &
                                          tangential_linear, tangential_fastsim
@@ -37,9 +36,7 @@ contains
         type(status_t) :: status
         integer :: i, m, run
 
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_comment(writer, 'Kalker: NORM and TANG on about 30 elements across')
         call put_header(writer, [[character(len=len(result_columns)) :: 'example', 'method', &
                                   'N_N', 'mu'], result_columns])
@@ -55,13 +52,8 @@ contains
                 end do
                 call put_cell(writer, trim(example_names(i)))
                 call put_cell(writer, trim(labels(m)))
-                if (prepared%by_load) then
-                    call put_cell(writer, prepared%load)
-                else if (is_error(status)) then
-                    call put_cell(writer, '')
-                else
-                    call put_cell(writer, result%normal%load)
-                end if
+                call put_cell(writer, merge(prepared%load, result%normal%load, prepared%by_load), &
+                              is_known=prepared%by_load .or. .not. is_error(status))
                 call put_cell(writer, case%mu)
                 call put_result(writer, result, solver%workspace%steps, status)
                 call end_row(writer)
@@ -69,8 +61,7 @@ contains
             end do
             call progress('examples', i, size(example_names))
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_examples
 
     !> The methods behind a label.

@@ -10,14 +10,14 @@
 module faststrip_lab_grid_forces
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_files_csv, only: csv_table_t, read_csv, csv_writer_t, open_csv, put_comment, &
-                                   put_header, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_table_t, read_csv, csv_writer_t, put_comment, put_header, &
+                                  put_cell, put_cells, end_row
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t
     use faststrip_normal_simple_hertz, only: hertz_strips
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, read_ellipse_cases, &
                                         read_columns
-    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_hertz, method_name_length
     use faststrip_contact_method, only: workspace_t, contact_result_t
@@ -69,9 +69,7 @@ contains
         ! Read before anything is written.
         call read_csv(scenes, table, status)
         call fail_on_error(status)
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_comment(writer, 'errors against extrapolated references: forces in % of mu N, ' &
                          // 'moment in % of mu N c, power in %, stick fraction in points')
         call put_header(writer, [character(len=14) :: 'set', 'group', 'case', 'method', &
@@ -83,8 +81,7 @@ contains
         call compare_shifts(folder, 'A', writer, tally)
         call compare_scenes(table, writer, tally)
         call tell('scenes', tally)
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_forces
 
     !> Ellipses, all methods on the ellipse itself or on 15 strips of it.
@@ -234,13 +231,7 @@ contains
             call put_cell(writer, group)
             call put_cell(writer, number)
             call put_cell(writer, trim(tangential_methods(m)%name))
-            do j = 1, n_errors
-                if (counts(j)) then
-                    call put_cell(writer, error(j))
-                else
-                    call put_cell(writer, '')
-                end if
-            end do
+            call put_cells(writer, error, counts)
             call end_row(writer)
             call add_errors(tally, group, m, abs(error), counts)
         end do

@@ -10,7 +10,7 @@ module faststrip_lab_grid_normal
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, number_text
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
@@ -32,7 +32,7 @@ module faststrip_lab_grid_normal
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
     use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
                                                spread_text, spread_names, cpu_columns
-    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
     private
@@ -91,9 +91,7 @@ contains
         integer :: i
 
         call prepare(folder, bench)
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_header(writer, [character(len=13) :: 'start', 'strips', 'us', 'iterations', &
                                  'ns_per_entry', 'fastsim_us', 'ratio', 'flags', 'compiler', &
                                  'cpu', 'gap_us', 'case', 'runs', &
@@ -103,8 +101,7 @@ contains
             if (strip_counts(i) > most_strips) exit
             call measure_strips(bench, strip_counts(i), 1.0e6_wp*seconds, writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_normal
 
     !> Read the contacts, and make the gaps of two steps from the profiles.
@@ -200,22 +197,17 @@ contains
                 call put_cell(writer, n)
                 call put_cell(writer, times%us(1))
                 call put_cell(writer, times%iterations)
-                call put_cell(writer, entry_ns)
-                call put_cell(writer, fastsim_us)
-                call put_cell(writer, times%us(1)/fastsim_us)
+                call put_cells(writer, [entry_ns, fastsim_us, times%us(1)/fastsim_us])
                 call put_cell(writer, compiler_flags())
                 call put_cell(writer, compiler_name())
                 call put_cell(writer, cpu_name())
                 call put_cell(writer, times%gap_us)
                 call put_cell(writer, bench%cases(i)%name)
                 call put_cell(writer, times%runs)
-                call put_cell(writer, times%factorings)
-                call put_cell(writer, value_ns)
-                call put_cell(writer, 1.0e-3_wp*(value_ns*times%values + entry_ns*times%gradients))
-                call put_cell(writer, 1.0e-3_wp*operation_ns*times%operations)
-                do figure = 1, size(times%us)
-                    call put_cell(writer, times%us(figure))
-                end do
+                call put_cells(writer, [times%factorings, value_ns, 1.0e-3_wp*(value_ns &
+                                        *times%values + entry_ns*times%gradients), &
+                                        1.0e-3_wp*operation_ns*times%operations])
+                call put_cells(writer, times%us)
                 call end_row(writer)
             end do
             call system_clock(now)

@@ -8,7 +8,7 @@
 module faststrip_lab_grid_speed
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
     use faststrip_contact_methods, only: tangential_none
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
@@ -19,7 +19,7 @@ module faststrip_lab_grid_speed
     use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_studies_speed_states, only: states_t, read_states, time_states, state_methods
     use faststrip_command_program_clock, only: cpu_microseconds
-    use faststrip_command_program_console, only: fail_on_error, put_origin, progress
+    use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
     use faststrip_command_program_machine, only: cpu_name
     use faststrip_command_contact_solver, only: solver_t, ready_gap_t, new_solver, make_ready, solve
     use faststrip_contact_case, only: contact_case_t
@@ -97,9 +97,7 @@ contains
         end do
         allocate (ns(size(columns), size(cases)), source=huge(1.0_wp))
         allocate (gap_us(size(cases)), source=huge(1.0_wp))
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_header(writer, [character(len=6) :: 'stage', 'method', 'case', 'status', &
                                  'cpu_us', 'cpu'])
         do round = 1, rounds
@@ -135,8 +133,7 @@ contains
                               states%us(k, i), states%status(k, i))
             end do
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_speed
 
     !> Time one contact by one method, its own stage only.
@@ -266,11 +263,7 @@ contains
         else
             call put_cell(writer, 'ok')
         end if
-        if (us < huge(1.0_wp)) then
-            call put_cell(writer, us)
-        else
-            call put_cell(writer, '')
-        end if
+        call put_cell(writer, us, is_known=us < huge(1.0_wp))
         call put_cell(writer, cpu_name())
         call end_row(writer)
     end subroutine put_time

@@ -9,7 +9,7 @@ module faststrip_lab_grid_steps
     use faststrip_base_status, only: status_t, is_error, number_text, status_word
     use faststrip_base_text, only: integer_text
     use faststrip_base_material, only: normal_compliance
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           standard_inclination
     use faststrip_contact_case, only: contact_case_t
@@ -21,7 +21,7 @@ module faststrip_lab_grid_steps
     use faststrip_lab_grid_normal, only: gap_of_shift
     use faststrip_lab_grid_trade_cases, only: trade_case_t, read_scene_cases
     use faststrip_command_program_clock, only: cpu_microseconds, spread_text
-    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     implicit none
     private
 
@@ -102,9 +102,7 @@ contains
                 maxval([(size(others(i)%gap%y), i=1, size(others))]))
         call reserve_strip_workspace(bench%workspace, most_patches*(2*strips + 1), i, status)
         call fail_on_error(status)
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_header(writer, [character(len=15) :: 'kind', 'case', 'step', 'load_N', &
                                  'shift_mm', 'strips', 'n_patches', 'strips_across', 'cpu_us', &
                                  'cold_us', 'iterations', 'factorings', 'values', 'gradients', &
@@ -133,8 +131,7 @@ contains
             call put_history(others(i)%name, cold, strips, history, writer, tally)
         end do
         call tell(cold, tally)
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_steps
 
     !> A history of one solution.
@@ -242,21 +239,15 @@ contains
                 call put_cell(writer, trim(kinds(kind)))
                 call put_cell(writer, name)
                 call put_cell(writer, k - 1)
-                call put_cell(writer, step%load)
-                call put_cell(writer, step%shift)
-                call put_cell(writer, strips)
-                call put_cell(writer, step%warm%n_patches)
-                call put_cell(writer, step%warm%strips_across)
-                call put_cell(writer, step%warm_us)
-                call put_cell(writer, step%cold_us)
-                call put_cell(writer, step%warm%cost%iterations)
-                call put_cell(writer, step%warm%cost%factorings)
-                call put_cell(writer, step%warm%cost%values)
-                call put_cell(writer, step%warm%cost%gradients)
-                call put_cell(writer, step%cold%cost%iterations)
-                call put_cell(writer, step%warm%penetration/step%judge%penetration - 1.0_wp)
-                call put_cell(writer, step%warm%pmax/step%judge%pmax - 1.0_wp)
-                call put_cell(writer, step%warm%area/step%judge%area - 1.0_wp)
+                call put_cells(writer, [step%load, step%shift])
+                call put_cells(writer, [strips, step%warm%n_patches, step%warm%strips_across])
+                call put_cells(writer, [step%warm_us, step%cold_us])
+                call put_cells(writer, [step%warm%cost%iterations, step%warm%cost%factorings, &
+                                        step%warm%cost%values, step%warm%cost%gradients, &
+                                        step%cold%cost%iterations])
+                call put_cells(writer, [step%warm%penetration/step%judge%penetration - 1.0_wp, &
+                                        step%warm%pmax/step%judge%pmax - 1.0_wp, &
+                                        step%warm%area/step%judge%area - 1.0_wp])
                 call put_cell(writer, trim(status_word(step%status%code)))
                 call end_row(writer)
                 tally%n = tally%n + 1

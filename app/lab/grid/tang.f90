@@ -10,7 +10,7 @@ module faststrip_lab_grid_tang
     use faststrip_base_text, only: integer_text
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: normal_compliance, combined_shear_modulus
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        release_norm, set_norm_gap, norm_solve_demand
     use faststrip_normal_types, only: normal_result_t
@@ -20,7 +20,8 @@ module faststrip_lab_grid_tang
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
     use faststrip_command_program_clock, only: cpu_microseconds, spread_of, spread_text, &
                                                spread_names, cpu_columns
-    use faststrip_command_program_console, only: fail_on_error, note, progress, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, progress, begin_table, &
+                                                 end_table
     use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
     private
@@ -72,9 +73,7 @@ contains
         call fail_on_error(status)
         if (quick) cases = cases(1::quick_step)
         allocate (runs(size(creepages), size(cases)))
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_header(writer, [character(len=14) :: 'case', 'creepages', 'elements', 'grid', &
                                  'steps', 'iterations', 'products', cpu_columns, 'rounds', &
                                  'stick_fraction', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'flags', 'compiler', &
@@ -88,8 +87,7 @@ contains
             end do
             call tell(sizes(k), cases, runs)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_tang
 
     !> All creepages of one contact.
@@ -162,19 +160,12 @@ contains
         do k = 1, size(runs)
             call put_cell(writer, name)
             call put_cell(writer, trim(creepages(k)))
-            call put_cell(writer, runs(k)%elements)
-            call put_cell(writer, runs(k)%grid)
-            call put_cell(writer, runs(k)%steps)
-            call put_cell(writer, runs(k)%iterations)
-            call put_cell(writer, runs(k)%products)
-            do figure = 1, size(runs(k)%us)
-                call put_cell(writer, runs(k)%us(figure))
-            end do
+            call put_cells(writer, [runs(k)%elements, runs(k)%grid, runs(k)%steps, &
+                                    runs(k)%iterations, runs(k)%products])
+            call put_cells(writer, runs(k)%us)
             call put_cell(writer, rounds)
-            call put_cell(writer, runs(k)%result%stick_fraction)
-            call put_cell(writer, runs(k)%result%fx)
-            call put_cell(writer, runs(k)%result%fy)
-            call put_cell(writer, runs(k)%result%mz)
+            call put_cells(writer, [runs(k)%result%stick_fraction, runs(k)%result%fx, &
+                                    runs(k)%result%fy, runs(k)%result%mz])
             call put_cell(writer, compiler_flags())
             call put_cell(writer, compiler_name())
             call put_cell(writer, cpu_name())

@@ -6,11 +6,11 @@ module faststrip_lab_grid_tangential
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, number_text
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
     use faststrip_command_program_clock, only: cpu_microseconds, median, spread_of, spread_text, &
                                                spread_names, cpu_columns
-    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: method_name_length
@@ -55,9 +55,7 @@ contains
         call read_bench_cases(folder, cases, status)
         call fail_on_error(status)
         allocate (times(size(cases)))
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_header(writer, [character(len=16) :: 'method', 'strips', 'points', 'case', &
                                  'elements', 'us', 'ns_per_element', 'ratio', 'us_with_field', &
                                  'flags', 'compiler', 'cpu', cpu_columns])
@@ -68,8 +66,7 @@ contains
             end do
             call tell(sizes(k), cases, times)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_tangential
 
     !> Solve a contact once and time all methods on it, turn about, so that what else happens on
@@ -151,24 +148,16 @@ contains
         do m = 1, size(tangential_methods)
             elements = merge(times%elements, 1, tangential_methods(m)%gives_elements)
             call put_cell(writer, trim(tangential_methods(m)%name))
-            call put_cell(writer, n)
-            call put_cell(writer, n)
+            call put_cells(writer, [n, n])
             call put_cell(writer, name)
             call put_cell(writer, elements)
-            call put_cell(writer, times%forces(1, m))
-            call put_cell(writer, 1.0e3_wp*times%forces(1, m)/elements)
-            call put_cell(writer, times%forces(1, m)/times%forces(1, measured()))
-            if (tangential_methods(m)%gives_elements) then
-                call put_cell(writer, times%field(m))
-            else
-                call put_cell(writer, '')
-            end if
+            call put_cells(writer, times%forces(1, m)/[1.0_wp, 1.0e-3_wp*elements, &
+                                                       times%forces(1, measured())])
+            call put_cell(writer, times%field(m), is_known=tangential_methods(m)%gives_elements)
             call put_cell(writer, compiler_flags())
             call put_cell(writer, compiler_name())
             call put_cell(writer, cpu_name())
-            do figure = 1, size(times%forces, 1)
-                call put_cell(writer, times%forces(figure, m))
-            end do
+            call put_cells(writer, times%forces(:, m))
             call end_row(writer)
         end do
     end subroutine put_times

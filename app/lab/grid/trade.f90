@@ -10,12 +10,12 @@
 module faststrip_lab_grid_trade
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, status_word
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                  end_row
     use faststrip_lab_studies_trade_influence, only: trade_influence
     use faststrip_lab_grid_trade_times, only: solution_columns, time_solution
     use faststrip_command_program_clock, only: spread_of, spread_names, cpu_columns
-    use faststrip_command_program_console, only: fail_on_error, put_origin, progress
+    use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
     use faststrip_command_settings_methods, only: in_core
     use faststrip_contact_methods, only: normal_method_name, tangential_method_name, &
                                          normal_table, &
@@ -59,9 +59,7 @@ contains
         call fail_on_error(status)
         call read_scene_cases(scenes_file, scenes, status)
         call fail_on_error(status)
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_comment(writer, 'errors: relative, of forces over mu N, of the moment over ' &
                          // 'mu N c; times: of the stage, processor')
         call put_header(writer, [[character(len=22) :: 'set', 'case', 'stage', 'method', &
@@ -79,8 +77,7 @@ contains
             call run_entry(writer, entries(i), hertz(:: thinning(entries(i), 20)))
             call run_entry(writer, entries(i), scenes(:: thinning(entries(i), 48)))
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
 
     contains
 
@@ -112,7 +109,7 @@ contains
         real(wp) :: us(most_repeats), spent, errors(n_figures), times(size(spread_names)), &
                     solution(size(solution_columns))
         integer :: i, run, runs, figure
-        logical :: counts, is_timed
+        logical :: counts(n_figures), is_timed
 
         call new_solver(solver, status)
         call fail_on_error(status)
@@ -141,39 +138,18 @@ contains
                     call put_cell(writer, trim(tangential_method_name(methods%tangential)))
                 end associate
                 call put_cell(writer, trim(status_word(status%code)))
-                if (runs == 0) then
-                    call put_cell(writer, '')
-                else
-                    times = spread_of(us(:runs))
-                    call put_cell(writer, times(1))
-                end if
+                if (runs > 0) times = spread_of(us(:runs))
+                call put_cell(writer, times(1), is_known=runs > 0)
                 errors = relative_errors(case, result)
-                do figure = 1, n_figures
-                    counts = (figure > 3 .neqv. entry%stage == 'normal') .and. &
-                             (case%area_counts .or. figure_names(figure) /= 'area')
-                    if (runs > 0 .and. counts) then
-                        call put_cell(writer, errors(figure))
-                    else
-                        call put_cell(writer, '')
-                    end if
-                end do
-                do figure = 1, size(times)
-                    if (runs == 0) then
-                        call put_cell(writer, '')
-                    else
-                        call put_cell(writer, times(figure))
-                    end if
-                end do
+                counts = runs > 0 .and. ([(figure > 3, figure=1, n_figures)] .neqv. &
+                                         entry%stage == 'normal') &
+                         .and. (case%area_counts .or. figure_names /= 'area')
+                call put_cells(writer, errors, counts)
+                call put_cells(writer, times, is_known=runs > 0)
                 is_timed = runs > 0 .and. entry%stage == 'normal' &
                            .and. in_core(normal_table, entry%settings%methods%normal)
                 if (is_timed) call time_solution(solver%workspace, contact, solution, is_timed)
-                do figure = 1, size(solution)
-                    if (is_timed) then
-                        call put_cell(writer, solution(figure))
-                    else
-                        call put_cell(writer, '')
-                    end if
-                end do
+                call put_cells(writer, solution, is_known=is_timed)
                 call end_row(writer)
             end associate
         end do

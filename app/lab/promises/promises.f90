@@ -8,10 +8,10 @@ module faststrip_lab_promises
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, number_text
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, open_csv, put_comment, &
-                                   put_header, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_table_t, read_csv, csv_writer_t, open_csv, put_comment, &
+                                   put_header, put_cell, put_cells, end_row
     use faststrip_command_program_clock, only: cpu_microseconds, median
-    use faststrip_command_program_console, only: fail_on_error, progress, put_origin
+    use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
     use faststrip_command_program_files, only: take_input, take_output, take_beside
     use faststrip_command_rows_auto_words, only: words_of_steps
     use faststrip_contact_case, only: contact_case_t
@@ -93,9 +93,7 @@ contains
             call put_cases(folder, contacts)
             return
         end if
-        call open_csv(writer, option_text(command, '-o', '-'), written)
-        call fail_on_error(written)
-        call put_origin(writer)
+        call begin_table(writer, option_text(command, '-o', '-'))
         call put_comment(writer, 'err_*: relative, of Fx, Fy over mu N, of Mz over mu N c, c = ' &
                          // 'sqrt(area/pi), of the stick fraction as it is; est_* what the ' &
                          // 'program says of it; times: processor, whole_us with what the ' &
@@ -109,8 +107,7 @@ contains
             call progress('methods', i, size(entries))
             call judge_method(writer, entries(i), contacts)
         end do
-        call close_csv(writer, written)
-        call fail_on_error(written)
+        call end_table(writer)
     end subroutine run_promises
 
     !> The contacts of a file of truths; ends the program if it cannot be read.
@@ -154,9 +151,7 @@ contains
         character(len=:), allocatable :: name
         integer :: i, k
 
-        call open_csv(writer, folder // '/cases.csv', status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, folder // '/cases.csv')
         call put_header(writer, case_columns)
         do i = 1, size(contacts)
             associate (truth => contacts(i)%truth)
@@ -166,9 +161,7 @@ contains
                 associate (numbers => [truth%material%e_rail, truth%material%nu_rail, truth%mu, &
                                        truth%load, truth%creepage%cksi, truth%creepage%ceta, &
                                        truth%creepage%cphi])
-                    do k = 1, size(numbers)
-                        call put_cell(writer, numbers(k))
-                    end do
+                    call put_cells(writer, numbers)
                 end associate
                 call end_row(writer)
             end associate
@@ -180,11 +173,9 @@ contains
             end associate
             call fail_on_error(status)
             call put_gap(gap, curve, 0.0_wp)
-            call close_csv(gap, status)
-            call fail_on_error(status)
+            call end_table(gap)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine put_cases
 
     !> The rows of one method: several times through all contacts, unless that takes long.

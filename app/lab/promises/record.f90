@@ -8,7 +8,7 @@ module faststrip_lab_promises_record
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t
     use faststrip_files_csv, only: csv_writer_t, csv_table_t, put_header, put_cell, end_row, &
-                                   read_cell
+                                   read_cell, put_cells
     use faststrip_lab_promises_contacts, only: promise_kinds
     implicit none
     private
@@ -87,8 +87,7 @@ contains
 
         call put_cell(writer, trim(promise_kinds(record%kind)))
         call put_cell(writer, record%number)
-        call put_cell(writer, record%state)
-        call put_cell(writer, record%patches)
+        call put_cells(writer, [record%state, record%patches])
         associate (material => record%material, creepage => record%creepage)
             numbers(:15) = [record%load, record%mu, material%e_wheel, material%nu_wheel, &
                             creepage%cksi, creepage%ceta, creepage%cphi, record%figures]

@@ -4,9 +4,9 @@ module faststrip_lab_promises_truths
     use faststrip_base_status, only: status_t, is_error, status_word, st_ok
     use faststrip_base_text, only: integer_text
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, close_csv
-    use faststrip_command_program_console, only: fail_on_error, note, progress, put_origin, &
-                                                 usage_error
+    use faststrip_files_csv, only: csv_writer_t, put_comment
+    use faststrip_command_program_console, only: fail_on_error, note, progress, usage_error, &
+                                                 begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
                                                  option_integer
     use faststrip_lab_promises_contacts, only: promise_contact_t, ellipses_t, read_ellipses, &
@@ -61,9 +61,7 @@ contains
             call usage_error('--kind must be a kind of contacts, got ' // name, command%name)
         call read_ellipses(ellipses, status)
         call fail_on_error(status)
-        call open_csv(writer, option_text(command, '-o', '-'), written)
-        call fail_on_error(written)
-        call put_origin(writer)
+        call begin_table(writer, option_text(command, '-o', '-'))
         call put_comment(writer, 'NORM and TANG, ' // integer_text(across/2) // ' and ' &
                          // integer_text(across) // ' elements across length_mm and width_mm; ' &
                          // 'penetration, Fy and Mz extrapolated; ellipses by Hertz and CONTACT')
@@ -84,8 +82,7 @@ contains
                 end if
             end do
         end do
-        call close_csv(writer, written)
-        call fail_on_error(written)
+        call end_table(writer)
     end subroutine run_truth
 
     !> The rows of one contact; one that NORM cannot solve without a limitation is left out.

@@ -5,8 +5,8 @@ module faststrip_lab_studies_correction
     use faststrip_base_status, only: status_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   end_row
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            release_tang, edges_sampled
@@ -16,7 +16,7 @@ module faststrip_lab_studies_correction
     use faststrip_tangential_faststrip, only: faststrip_tangential_solve, default_points
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_types, only: tangential_result_t
-    use faststrip_command_program_console, only: fail_on_error, progress, put_origin
+    use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
     implicit none
     private
 
@@ -46,9 +46,7 @@ contains
         type(status_t) :: status
         integer :: i, k, step
 
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_comment(writer, 'ellipses of 15 strips by 15 points, and TANG on 36 elements ' &
                          // 'each way; u: linear force over mu N; forces over mu N, moments over ' &
                          // 'mu N sqrt(ab)')
@@ -66,8 +64,7 @@ contains
             call progress('proportion', i, proportions)
         end do
         call release_tang(tang)
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_correction
 
     !> All creepages of one direction.
@@ -118,8 +115,7 @@ contains
             call tang_solve(tang, grid, steel, mu, creepage, options, reference, status)
             call fail_on_error(status)
             call put_cell(writer, trim(names(direction)))
-            call put_cell(writer, proportion)
-            call put_cell(writer, force)
+            call put_cells(writer, [proportion, force])
             call put_forces(writer, plain, ellipse)
             call put_forces(writer, corrected, ellipse)
             call put_forces(writer, reference, ellipse)
@@ -132,8 +128,7 @@ contains
         type(tangential_result_t), intent(in) :: result
         type(hertz_t), intent(in) :: ellipse
 
-        call put_cell(writer, result%fx/(mu*load))
-        call put_cell(writer, result%fy/(mu*load))
-        call put_cell(writer, result%mz/(mu*load*sqrt(ellipse%a*ellipse%b)))
+        call put_cells(writer, [result%fx/(mu*load), result%fy/(mu*load), &
+                                result%mz/(mu*load*sqrt(ellipse%a*ellipse%b))])
     end subroutine put_forces
 end module faststrip_lab_studies_correction

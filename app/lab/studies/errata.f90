@@ -4,8 +4,7 @@ module faststrip_lab_studies_errata
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, &
-                                   close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_base_material, only: material_t, normal_compliance, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
@@ -31,7 +30,7 @@ module faststrip_lab_studies_errata
                                         literal_offcentre_influence, center_pressures
     use faststrip_tangential_paper, only: march_reading_t, march_sum_t, printed_march
     use faststrip_tables_printed_integral, only: printed_influence, rule_qags, rule_cquad
-    use faststrip_command_program_console, only: fail_on_error, put_origin, say
+    use faststrip_command_program_console, only: fail_on_error, say, begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text
     implicit none
     private
@@ -462,23 +461,19 @@ contains
         type(status_t) :: status
         integer :: i
 
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, path)
         call put_header(writer, [character(len=12) :: 'equation', 'what', 'literal', 'right', &
                                  'unit', 'deviation', 'note'])
         do i = 1, size(list)
             call put_cell(writer, trim(list(i)%equation))
             call put_cell(writer, trim(list(i)%what))
-            call put_cell(writer, list(i)%literal)
-            call put_cell(writer, list(i)%right)
+            call put_cells(writer, [list(i)%literal, list(i)%right])
             call put_cell(writer, trim(list(i)%unit))
             call put_cell(writer, list(i)%literal/list(i)%right - 1.0_wp)
             call put_cell(writer, trim(list(i)%note))
             call end_row(writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine write_findings
 
     subroutine print_findings(list)

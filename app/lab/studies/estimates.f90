@@ -16,14 +16,14 @@ module faststrip_lab_studies_estimates
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok, st_conformal
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   end_row
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors, &
-                                                     richardson_estimate
+                                                richardson_estimate
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_workspace_t, release_norm
     use faststrip_contact_case, only: contact_case_t
@@ -31,10 +31,10 @@ module faststrip_lab_studies_estimates
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_studies_estimates_tally, only: tally_t, start_tally, count_in, count_out, &
-                                                       print_tally, figures, n_figures
+                                                     print_tally, figures, n_figures
     use faststrip_lab_studies_estimates_reference, only: truth_t, find_truth, is_certain, &
-                                                       elements_along, elements_across
-    use faststrip_command_program_console, only: fail_on_error, put_origin, progress
+                                                         elements_along, elements_across
+    use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
     use faststrip_lab_checkout, only: in_checkout
     implicit none
@@ -99,9 +99,7 @@ contains
         do e = 1, size(estimators)
             call start_tally(study%tally(e), size(families), n_tried)
         end do
-        call open_csv(study%writer, path, status)
-        call fail_on_error(status)
-        call put_origin(study%writer)
+        call begin_table(study%writer, path)
         call put_comment(study%writer, 'relative errors; penetration above the lowest gap')
         call put_comment(study%writer, 'truth: exact for ellipses, CONTACT for gaps_contact, for ' &
                          // 'all others NORM on ' // integer_text(elements_along) // ' by ' &
@@ -115,8 +113,7 @@ contains
         call try_ellipses(study)
         call try_gaps(study)
         call try_random(study)
-        call close_csv(study%writer, status)
-        call fail_on_error(status)
+        call end_table(study%writer)
         if (path == '-') return
         call print_tally(study%tally(residuals_), estimators(residuals_), families, solutions)
         call print_tally(study%tally(richardson_), estimators(richardson_), families, solutions)
@@ -357,9 +354,7 @@ contains
                 end if
                 call put_cell(study%writer, trim(estimators(estimator)))
                 call put_cell(study%writer, trim(figures(q)))
-                call put_cell(study%writer, error(q))
-                call put_cell(study%writer, estimate(q))
-                call put_cell(study%writer, truth%doubt(q))
+                call put_cells(study%writer, [error(q), estimate(q), truth%doubt(q)])
                 if (is_certain(truth%doubt(q), error(q))) then
                     call put_cell(study%writer, merge(1, 0, estimate(q) >= error(q)))
                     call count_in(study%tally(estimator), family, solution, q, estimate(q), &

@@ -9,7 +9,8 @@ module faststrip_lab_studies_integral
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, put_cells, &
+                                   end_row
     use faststrip_tables_polynomials, only: basis_monomial
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_polynomial, only: published_coefficients, table_last_distance
@@ -20,7 +21,7 @@ module faststrip_lab_studies_integral
     use faststrip_lab_studies_exact_influence, only: qp
     use faststrip_lab_studies_polynomials, only: power_of_ten_influence, power_of_ten_row
     use faststrip_command_program_clock, only: median, spread_of
-    use faststrip_command_program_console, only: fail_on_error, put_origin
+    use faststrip_command_program_console, only: fail_on_error, put_origin, end_table
     use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
     private
@@ -325,11 +326,9 @@ contains
             call put_cell(writer, flags)
             call put_cell(writer, compiler)
             call put_cell(writer, cpu)
-            call put_cell(writer, ns(2))
-            call put_cell(writer, ns(3))
+            call put_cells(writer, ns(2:3))
             call end_row(writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine write_costs
 end module faststrip_lab_studies_integral

@@ -8,8 +8,8 @@ module faststrip_lab_studies_kalker
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, number_text
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, column_numbers, &
-                                   require_column, cell_text, open_csv, put_comment, put_header, &
-                                   put_cell, end_row, close_csv
+                                   require_column, cell_text, put_comment, put_header, put_cell, &
+                                   end_row, put_cells
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t, combined_shear_modulus
     use faststrip_kalker_grid, only: contact_grid_t, size_grid, element_x, element_y
@@ -18,7 +18,8 @@ module faststrip_lab_studies_kalker
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            release_tang
     use faststrip_command_program_clock, only: cpu_microseconds
-    use faststrip_command_program_console, only: fail_on_error, note, progress, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, progress, begin_table, &
+                                                 end_table
     implicit none
     private
 
@@ -66,9 +67,7 @@ contains
         call read_contact(folder // '/kalker_computed.csv', contact)
         chosen = ratios
         if (quick) chosen = quick_ratios
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_comment(writer, 'coefficients by TANG without sliding, extrapolated to elements' &
                          // ' of size zero; C33 of the table has three digits, CONTACT as in ' &
                          // 'kalker_computed.csv; scatter: rms about the line')
@@ -86,8 +85,7 @@ contains
             end do
         end do
         call release_tang(tang)
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
         do i = 1, size(names)
             call note(names(i) // ': at most ' // trim(number_text(worst(i))) &
                       // ' % from the table')
@@ -215,23 +213,11 @@ contains
         table = [kalker%c11, kalker%c22, kalker%c23, -kalker%c23, kalker%c33]
         do j = 1, size(names)
             call put_cell(writer, names(j))
-            call put_cell(writer, ratio)
-            call put_cell(writer, nu)
-            call put_cell(writer, value(j))
-            call put_cell(writer, scatter(j))
-            call put_cell(writer, table(j))
+            call put_cells(writer, [ratio, nu, value(j), scatter(j), table(j)])
             other = by_contact(contact, names(j), ratio, nu)
-            if (other == 0.0_wp) then
-                call put_cell(writer, '')
-            else
-                call put_cell(writer, other)
-            end if
+            call put_cell(writer, other, is_known=other /= 0.0_wp)
             call put_cell(writer, 100.0_wp*(value(j)/table(j) - 1.0_wp))
-            if (other == 0.0_wp) then
-                call put_cell(writer, '')
-            else
-                call put_cell(writer, 100.0_wp*(value(j)/other - 1.0_wp))
-            end if
+            call put_cell(writer, 100.0_wp*(value(j)/other - 1.0_wp), is_known=other /= 0.0_wp)
             call put_cell(writer, elements)
             call put_cell(writer, seconds)
             call end_row(writer)

@@ -8,7 +8,7 @@ module faststrip_lab_studies_reference
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
@@ -20,7 +20,7 @@ module faststrip_lab_studies_reference
     use faststrip_lab_studies_reference_tang, only: measure_tang
     use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
                                                spread_text, spread_names, cpu_columns
-    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
     implicit none
     private
@@ -87,9 +87,7 @@ contains
         call fail_on_error(status)
         call reserve_strip_workspace(bench%workspace, 100, bench%points, status)
         call fail_on_error(status)
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_header(writer, [character(len=13) :: 'method', 'start', 'tolerance', 'elements', &
                                  'us', 'iterations', 'convolutions', 'dx_mm', 'grid', 'flags', &
                                  'compiler', 'cpu', 'case', 'runs', cpu_columns])
@@ -98,8 +96,7 @@ contains
             call measure_size(bench, sizes(i), 1.0e6_wp*seconds, writer)
             call measure_tang(bench%cases, sizes(i), 1.0e6_wp*seconds, writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_reference
 
     !> All starts with one number of elements, and as many contacts as the time allows.
@@ -138,8 +135,7 @@ contains
                     call put_cell(writer, tolerances(t))
                     call put_cell(writer, times%elements)
                     call put_cell(writer, times%us(1))
-                    call put_cell(writer, times%iterations)
-                    call put_cell(writer, times%convolutions)
+                    call put_cells(writer, [times%iterations, times%convolutions])
                     call put_cell(writer, dx)
                     call put_cell(writer, times%grid)
                     call put_cell(writer, compiler_flags())
@@ -147,9 +143,7 @@ contains
                     call put_cell(writer, cpu_name())
                     call put_cell(writer, bench%cases(i)%name)
                     call put_cell(writer, times%runs)
-                    do figure = 1, size(times%us)
-                        call put_cell(writer, times%us(figure))
-                    end do
+                    call put_cells(writer, times%us)
                     call end_row(writer)
                 end do
             end do

@@ -4,8 +4,8 @@ module faststrip_lab_studies_reference_scenes
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   end_row
     use faststrip_base_material, only: normal_compliance
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        set_norm_gap, norm_solve
@@ -13,7 +13,7 @@ module faststrip_lab_studies_reference_scenes
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve
-    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: note, begin_table, end_table
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_lab_pressures, only: solve_pressures
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
@@ -53,9 +53,7 @@ contains
             option_t('--scenes', 'N', 'number of contacts, 1 to 10000 (default 240)')]
         call parse_command(command, 0)
         last = option_integer(command, '--scenes', scenes_unless_told, least=1, most=10000)
-        call open_csv(writer, option_text(command, '-o', '-'), status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, option_text(command, '-o', '-'))
         call put_comment(writer, 'NORM and TANG, second order, ' // integer_text(elements/2) &
                          // ' and ' // integer_text(elements) // ' elements across; *_extrap = ' &
                          // '(4 fine - coarse)/3; creepages about y = 0')
@@ -67,8 +65,7 @@ contains
         do number = 1, last
             call solve_scene(number, writer)
         end do
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine run_scenes
 
     !> Solve one contact on both grids and write its row; one that cannot be solved is left out.
@@ -100,26 +97,15 @@ contains
         end if
         call put_cell(writer, number)
         call put_cell(writer, trim(scene_families(scene%family)))
-        call put_cell(writer, scene%load)
-        call put_cell(writer, scene%mu)
-        call put_cell(writer, scene%material%e_wheel)
-        call put_cell(writer, scene%material%nu_wheel)
-        call put_cell(writer, scene%creepage%cksi)
-        call put_cell(writer, scene%creepage%ceta)
-        call put_cell(writer, scene%creepage%cphi)
-        call put_cell(writer, extrapolated(coarse%forces%fx, fine%forces%fx))
-        call put_cell(writer, extrapolated(coarse%forces%fy, fine%forces%fy))
-        call put_cell(writer, extrapolated(coarse%forces%mz, fine%forces%mz))
-        call put_cell(writer, fine%forces%fx)
-        call put_cell(writer, fine%forces%fy)
-        call put_cell(writer, fine%forces%mz)
-        call put_cell(writer, coarse%forces%fx)
-        call put_cell(writer, coarse%forces%fy)
-        call put_cell(writer, coarse%forces%mz)
-        call put_cell(writer, fine%forces%stick_fraction)
-        call put_cell(writer, fine%normal%area)
-        call put_cell(writer, fine%normal%pmax)
-        call put_cell(writer, fine%normal%penetration)
+        call put_cells(writer, [scene%load, scene%mu, scene%material%e_wheel, &
+                                scene%material%nu_wheel, scene%creepage%cksi, scene%creepage%ceta, &
+                                scene%creepage%cphi, &
+                                extrapolated(coarse%forces%fx, fine%forces%fx), &
+                                extrapolated(coarse%forces%fy, fine%forces%fy), &
+                                extrapolated(coarse%forces%mz, fine%forces%mz), fine%forces%fx, &
+                                fine%forces%fy, fine%forces%mz, coarse%forces%fx, &
+                                coarse%forces%fy, coarse%forces%mz, fine%forces%stick_fraction, &
+                                fine%normal%area, fine%normal%pmax, fine%normal%penetration])
         call put_cell(writer, fine%normal%n_patches)
         call end_row(writer)
     end subroutine solve_scene

@@ -7,7 +7,7 @@ module faststrip_lab_studies_reference_tang
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, put_cell, end_row
+    use faststrip_files_csv, only: csv_writer_t, put_cell, put_cells, end_row
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: normal_compliance
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
@@ -193,19 +193,15 @@ contains
         call put_cell(writer, trim(starts(start)))
         call put_cell(writer, options%tolerance)
         call put_cell(writer, runs%elements)
-        call put_cell(writer, figures(1))
-        call put_cell(writer, median(runs%products(1:runs%n)))
-        call put_cell(writer, median(runs%products(1:runs%n)))
-        call put_cell(writer, grid%dx)
+        call put_cells(writer, [figures(1), median(runs%products(1:runs%n)), &
+                                median(runs%products(1:runs%n)), grid%dx])
         call put_cell(writer, grid%nx*grid%ny)
         call put_cell(writer, compiler_flags())
         call put_cell(writer, compiler_name())
         call put_cell(writer, cpu_name())
         call put_cell(writer, name)
         call put_cell(writer, runs%n)
-        do figure = 1, size(figures)
-            call put_cell(writer, figures(figure))
-        end do
+        call put_cells(writer, figures)
         call end_row(writer)
     end subroutine put_runs
 end module faststrip_lab_studies_reference_tang

@@ -5,10 +5,10 @@
 !> tops: 15 strips, 31 and `auto` against 401 strips, whose own error is that of 201 to 401.
 module faststrip_lab_studies_robust
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, status_word
+    use faststrip_base_status, only: status_t, status_word
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   end_row
     use faststrip_base_material, only: normal_compliance
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
@@ -21,7 +21,7 @@ module faststrip_lab_studies_robust
     use faststrip_contact_method, only: workspace_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_pressures, only: solve_by_strips
-    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     implicit none
     private
 
@@ -63,9 +63,7 @@ contains
         call fail_on_error(status)
         call reserve_lattice(bench%lattice, capacity, status)
         call fail_on_error(status)
-        call open_csv(bench%writer, file, status)
-        call fail_on_error(status)
-        call put_origin(bench%writer)
+        call begin_table(bench%writer, file)
         call put_comment(bench%writer, 'relative errors; lattice: against CONTACT and Hertz; ' &
                          // 'kinks and flat tops: against ' // integer_text(reference_strips) &
                          // ' strips')
@@ -75,8 +73,7 @@ contains
         call try_contacts(bench, folder)
         call try_ellipses(bench)
         call try_shapes(bench)
-        call close_csv(bench%writer, status)
-        call fail_on_error(status)
+        call end_table(bench%writer)
     end subroutine bench_robust
 
     !> The lattice on the 20 contacts.
@@ -250,8 +247,7 @@ contains
         call put_cell(bench%writer, strips)
         call put_cell(bench%writer, trim(status_word(status%code)))
         call put_cell(bench%writer, bench%workspace%strips%n)
-        call put_cell(bench%writer, error(1))
-        call put_cell(bench%writer, error(2))
+        call put_cells(bench%writer, error)
         call end_row(bench%writer)
     end subroutine put_row
 

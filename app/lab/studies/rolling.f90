@@ -2,8 +2,8 @@
 module faststrip_lab_studies_rolling
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, status_word, number_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_comment, put_header, put_cell, &
-                                   end_row, close_csv
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+                                   put_empty_cells, end_row
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_kalker_normal, only: norm_workspace_t, norm_options_t, reserve_norm, &
                                        set_norm_gap, norm_solve
@@ -15,7 +15,7 @@ module faststrip_lab_studies_rolling
                                            edges_sampled
     use faststrip_kalker_tangential_pressures, only: sample_ellipse
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, read_ellipse_cases
-    use faststrip_command_program_console, only: fail_on_error, note, put_origin
+    use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     implicit none
     private
 
@@ -44,9 +44,7 @@ contains
         type(csv_writer_t) :: writer
         type(status_t) :: status
 
-        call open_csv(writer, file, status)
-        call fail_on_error(status)
-        call put_origin(writer)
+        call begin_table(writer, file)
         call put_comment(writer, 'forces of TANG less those of CONTACT, extrapolated, in % of ' &
                          // 'mu N (fx, fy) and mu N c (mz), pi c^2 the area; processor time')
         call put_header(writer, [character(len=13) :: 'group', 'case', 'scheme', 'dx_mm', 'dy_mm', &
@@ -55,8 +53,7 @@ contains
         call paper_contacts(folder, 'A', writer)
         call paper_contacts(folder, 'B', writer)
         call ellipses(folder, writer)
-        call close_csv(writer, status)
-        call fail_on_error(status)
+        call end_table(writer)
     end subroutine bench_rolling
 
     !> The paper's contacts, pressures by NORM.
@@ -164,28 +161,22 @@ contains
         call put_cell(writer, set)
         call put_cell(writer, name)
         call put_cell(writer, trim(scheme_names(k)))
-        call put_cell(writer, grid%dx)
-        call put_cell(writer, grid%dy)
+        call put_cells(writer, [grid%dx, grid%dy])
         call put_cell(writer, trim(status_word(status%code)))
         call put_cell(writer, tang%elements)
         if (is_error(status)) then
             group%failed = group%failed + 1
-            do j = 1, 3
-                call put_cell(writer, '')
-            end do
+            call put_empty_cells(writer, 3)
         else
             errors = 100.0_wp*([result%fx, result%fy, result%mz] - contact%forces) &
                      /(mu*contact%load*[1.0_wp, 1.0_wp, sqrt(contact%truth%area/pi)])
-            do j = 1, 3
-                call put_cell(writer, errors(j))
-            end do
+            call put_cells(writer, errors(:3))
             group%n = group%n + 1
             group%total = group%total + abs(errors)
             group%largest = max(group%largest, abs(errors))
             group%seconds = group%seconds + (after - before)
         end if
-        call put_cell(writer, tang%steps)
-        call put_cell(writer, tang%products)
+        call put_cells(writer, [tang%steps, tang%products])
         call put_cell(writer, after - before)
         call end_row(writer)
     end subroutine compare

@@ -7,7 +7,7 @@
 module faststrip_lab_studies_trade_influence
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, status_word, st_ok
-    use faststrip_files_csv, only: csv_writer_t, put_cell, end_row
+    use faststrip_files_csv, only: csv_writer_t, put_cell, put_cells, put_empty_cells, end_row
     use faststrip_base_material, only: normal_compliance
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_polynomial, only: table_influence
@@ -75,29 +75,16 @@ contains
                 call put_cell(writer, 'none')
                 call put_cell(writer, trim(status_word(status(m)%code)))
                 if (is_error(status(m))) then
-                    do k = 1, n_figures + 1
-                        call put_cell(writer, '')
-                    end do
+                    call put_empty_cells(writer, n_figures + 1)
                 else
-                    call put_cell(writer, us(1, m))
-                    call put_cell(writer, depth(m)/depth(closed) - 1.0_wp)
-                    call put_cell(writer, maxval(abs(p0(:, m) - p0(:, closed))) &
-                                  /maxval(p0(:, closed)))
-                    do k = 3, n_figures
-                        call put_cell(writer, '')
-                    end do
+                    call put_cells(writer, [us(1, m), depth(m)/depth(closed) - 1.0_wp, &
+                                            maxval(abs(p0(:, m) - p0(:, closed))) &
+                                            /maxval(p0(:, closed))])
+                    call put_empty_cells(writer, n_figures - 2)
                 end if
-                do k = 1, size(us, 1)
-                    if (is_error(status(m))) then
-                        call put_cell(writer, '')
-                    else
-                        call put_cell(writer, us(k, m))
-                    end if
-                end do
+                call put_cells(writer, us(:, m), is_known=.not. is_error(status(m)))
                 ! No time of a normal solution alone.
-                do k = 1, size(us, 1)
-                    call put_cell(writer, '')
-                end do
+                call put_empty_cells(writer, size(us, 1))
                 call end_row(writer)
             end do
         end do
