@@ -37,6 +37,8 @@
   extremes      build, then measure accuracy and steadiness at the extremes, also in single
                 precision and in all rounding modes; in out/extremes/
   forces        build, then judge, time and draw the tangential methods; in out/forces/
+  lists         write what repeats the lists of methods, settings, columns, arguments and tuned
+                numbers in sources and documents; builds in between
   scenes        the first of the stored results: forces of 240 contacts; in reference/scenes/
   stored [NAME] build, then make the stored results anew, all or one (listed in
                 reference/stored.csv); everything has to be committed before, some minutes
@@ -782,6 +784,15 @@ def measured(tool, *words):
     do(sys.executable, tool, *from_start(words))
 
 
+def lists():
+    do(sys.executable, "tools/generate/methods.py")
+    build()
+    for tool in "settings", "columns":
+        do(sys.executable, f"tools/generate/{tool}.py", "bin/faststrip")
+    do(sys.executable, "tools/generate/f77_arguments.py")
+    do(sys.executable, "tools/check/constants.py")
+
+
 def net(*words):
     if not {"-h", "--help"} & set(words):
         install_below(ROOT / "build" / "embed")
@@ -899,8 +910,8 @@ FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 3
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
     build_step, test, lint, bare, mutants, hostile, fuzz, corrections, demo, strips, speed, scale,
-    net, lookup, page, extremes, forces, scenes, stored, report, install, package, release, docs,
-    embed, tables, compilers, clean)}
+    lists, net, lookup, page, extremes, forces, scenes, stored, report, install, package, release,
+    docs, embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"lint": 1, "bare": 1, "fuzz": 1, "clean": 1, **dict.fromkeys((
     "test", "install", "mutants", "hostile", "stored", "report", "speed", "scale", "net", "lookup",

@@ -3,13 +3,15 @@
 program tour
     use faststrip
     implicit none
-    integer, parameter :: normals(8) = [normal_strip, normal_hertz, normal_equal_area, &
-                                        normal_equal_moments, normal_kpec, normal_analyn, &
-                                        normal_kpec_strips, normal_auto]
-    integer, parameter :: tangentials(10) = [ &
-        tangential_none, tangential_faststrip, tangential_faststrip_plain, &
-        tangential_faststrip_paper, tangential_faststrip_corrected, tangential_fastsim, &
-        tangential_fastsim_elliptic, tangential_fastsim_weighted, tangential_linear, tangential_she]
+    ! BEGIN methods
+    integer, parameter :: normals(*) = [ &
+        normal_strip, normal_hertz, normal_equal_area, normal_equal_moments, normal_auto, &
+        normal_kpec, normal_analyn, normal_kpec_strips]
+    integer, parameter :: tangentials(*) = [ &
+        tangential_none, tangential_faststrip, tangential_fastsim, tangential_faststrip_paper, &
+        tangential_faststrip_corrected, tangential_fastsim_elliptic, tangential_fastsim_weighted, &
+        tangential_linear, tangential_she, tangential_polach, tangential_faststrip_plain]
+    ! END methods
     integer, parameter :: targets(5) = [target_forces, target_pmax, target_penetration, &
                                         target_area, target_power]
     integer, parameter :: falls(3) = [friction_linear, friction_rational, friction_exponential]
@@ -100,9 +102,6 @@ contains
             print '(a, i0, 2(1x, f10.3))', 'tangential ', tangentials(i), &
                 result%tangential%fx, result%tangential%fy
         end do
-        case%methods%tangential = tangential_polach
-        call solve_contact_forces(workspace, case, result, status)
-        call check('Polach')
         ! NORM and TANG come with faststrip-kalker; without it they are refused by name.
         case%methods = contact_methods_t(normal=normal_norm, tangential=tangential_tang)
         call solve_contact(workspace, case, result, status)

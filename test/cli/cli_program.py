@@ -141,6 +141,10 @@ class ProgramTest(unittest.TestCase):
         done.stderr = without_progress(done.stderr)
         return done
 
+    def assert_columns(self, row, wanted):
+        """Its columns are these, in this order; there may be others."""
+        self.assertEqual([name for name in row if name in wanted], wanted)
+
     def good(self, *words, share=False):
         """Run what has to succeed without a word on stderr; the rows on stdout."""
         done = self.share_program(*words) if share else self.run_program(*words)

@@ -65,7 +65,7 @@ class Batch(ProgramTest):
             self.assertEqual(row["status"], "under_resolved" if float(row["est_err_pmax"]) > 0.1
                              else "ok", row["case"])
         self.assertGreaterEqual([row["status"] for row in results].count("ok"), len(results) - 1)
-        self.assertEqual(list(results[0]), BATCH_COLUMNS.split(",") + RESULT_COLUMNS)
+        self.assert_columns(results[0], BATCH_COLUMNS.split(",") + RESULT_COLUMNS)
 
         def errors(name, wanted, scale):
             return [abs(float(a[name]) - float(b[wanted])) / scale(b)
@@ -237,8 +237,8 @@ class Batch(ProgramTest):
         row = self.good("batch", "cases.csv")[0]
         self.assertEqual([row[name] for name in names], cells)
         self.assertEqual((row["case"], row["N_N"], row["status"]), ("0042", "0100000.00", "ok"))
-        self.assertEqual(list(row), names[:4] + BATCH_COLUMNS.split(",") + names[4:]
-                         + RESULT_COLUMNS)
+        self.assert_columns(row, names[:4] + BATCH_COLUMNS.split(",") + names[4:]
+                            + RESULT_COLUMNS)
 
     def test_failing_rows_do_not_stop_the_others(self):
         self.write("gaps/nan.csv", gap_text(parabola, n=11).replace("15.0,", "NaN,"))

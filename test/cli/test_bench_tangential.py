@@ -2,13 +2,14 @@
 
 import statistics
 
+import methods
 from cli_program import GAPS, ROOT, LabTest
 
 CONTACTS = ROOT / "reference" / "contact"
 SCENES = ROOT / "reference" / "scenes" / "scenes.csv"
-METHODS = ["faststrip", "faststrip-plain", "faststrip-paper", "faststrip-corrected", "fastsim",
-           "fastsim-elliptic", "fastsim-weighted", "linear", "she", "polach"]
-LAWS = METHODS[7:]
+LISTED = methods.listed("tangential")
+METHODS = [name for name in LISTED if name != "none"]
+LAWS = [name for name in METHODS if not LISTED[name].gives_elements]
 
 
 class Bench(LabTest):

@@ -104,7 +104,7 @@ class GapFile(ProgramTest):
 
     def test_row(self):
         row = self.contact(motion="cksi = 0.001")
-        self.assertEqual(list(row)[-len(RESULT_COLUMNS):], RESULT_COLUMNS)
+        self.assert_columns(row, RESULT_COLUMNS)
         self.assertEqual((row["status"], row["case"], row["gamma_rad"]), ("ok", "gap", ""))
         for name in FIGURES:
             self.assertTrue(math.isfinite(float(row[name])), name)

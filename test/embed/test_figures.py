@@ -5,20 +5,18 @@ import math
 import random
 import sys
 
+import methods
 from installed import HOSTS, HostTest
 
-NORMAL = ("strip", "hertz", "equal_area", "equal_moments")
-GUESSED = {"kpec": 7, "analyn": 8, "kpec_strips": 9}
-AUTO = "auto", 6
-TANGENTIAL = ("none", "faststrip", "fastsim", "faststrip-paper", "faststrip-corrected",
-              "fastsim-elliptic", "fastsim-weighted", "linear", "she", "polach")
+# Those of the core, by name.
+NORMAL, TANGENTIAL = methods.listed("normal"), methods.listed("tangential")
 ESTIMATES = ("est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
              "overlap_outside")
 FORCE_ESTIMATES = ("est_err_fx", "est_err_fy", "est_err_mz")
 # What came of auto, but its steps.
 TAKEN = ("n_steps", "best_step", "target_is_known", "target_is_met", "est_err_target")
 TARGETS = (None, "forces", "pmax", "penetration", "area", "power")
-FORCES_ONLY = {"linear", "she", "polach"}
+FORCES_ONLY = {name for name, method in TANGENTIAL.items() if not method.gives_elements}
 # Bodies, friction, load, penetration, creepages: no two alike, the second demand unlike the first.
 FIRST = (2.1e5, 1.584e5, 0.27, 0.335, 0.31, 7.3e4, 0.061, 1.3e-3, -7e-4, 1.7e-4)
 SECOND = (1.9e5, 2.3e5, 0.31, 0.24, 0.23, 6.1e4, 0.047, -9e-4, 1.6e-3, -2.3e-4)
@@ -35,6 +33,10 @@ CLASSIC = {
               (2.1e5, 0.0, 0.27, 0.335, 1.1e-3, 2.3e-3, 9e4)),
     "kalker": ((1.7, 0.27), (0.3, 0.24), (1.0, 0.335), (0.0, 0.27), (1.7, 0.9)),
 }
+
+
+def name_of(table, number):
+    return next(name for name, method in table.items() if method.number == number)
 
 
 def lopsided(y):
@@ -78,7 +80,7 @@ def contacts():
     for *numbers, first, second, rows in smooth_contacts():
         yield (*numbers, *USUAL, *WANTED, first, second, rows)
     usual = gap(lopsided, -14.0, 17.0, 201)
-    for normal in (*NORMAL, *GUESSED):
+    for normal in (name for name in NORMAL if name != "auto"):
         for estimate in ((0, 0.1), (1, 1e-9), (1, -0.1)):
             yield (normal, "faststrip", 8, 6, 7, 11, 1, 0, 0, *estimate, *WANTED, FIRST, SECOND,
                    usual)
@@ -104,11 +106,11 @@ def auto_contacts(usual):
 def smooth_contacts():
     """The same without estimate and limit."""
     usual = gap(lopsided, -14.0, 17.0, 201)
-    for normal in (*NORMAL, *GUESSED):
+    for normal in (name for name in NORMAL if name != "auto"):
         for tangential in TANGENTIAL:
             yield (normal, tangential, 11, 7, 13, 9, 1, int(tangential not in FORCES_ONLY), 0,
                    FIRST, SECOND, usual)
-    for normal in (*NORMAL, *GUESSED):
+    for normal in (name for name in NORMAL if name != "auto"):
         for by_load in (0, 1):
             for rows in (usual, gap(valleys, -13.0, 14.0, 181)):
                 yield (normal, "faststrip", 9, 5, 7, 11, by_load, 0, 0, SECOND, FIRST, rows)
@@ -128,11 +130,8 @@ def input_text():
     rows = list(contacts())
     lines = [str(len(rows))]
     for normal, tangential, *numbers, first, second, points in rows:
-        numbered = {**{name: i for i, name in enumerate(NORMAL, 1)}, **GUESSED,
-                    AUTO[0]: AUTO[1]}
-        lines.append(" ".join(map(str, (normal, tangential, numbered[normal],
-                                        11 if tangential == "faststrip-plain" else
-                                        TANGENTIAL.index(tangential), *numbers, len(points)))))
+        lines.append(" ".join(map(str, (normal, tangential, NORMAL[normal].number,
+                                        TANGENTIAL[tangential].number, *numbers, len(points)))))
         lines += [" ".join(map(repr, row)) for row in (first, second, *points)]
     for values in (*CLASSIC["fastsim"], *CLASSIC["hertz"], *CLASSIC["kalker"]):
         lines.append(" ".join(map(repr, values)))
@@ -216,7 +215,7 @@ class Figures(HostTest):
     def test_auto_meets_and_misses_by_all_kinds_of_steps(self):
         first = {key[1]: value for key, value in self.wanted.items()
                  if key[0] == "n_steps" and key[2] == 1 and value > 0.0}
-        auto = {i for i, row in enumerate(self.contacts, 1) if row[0] == AUTO[0]}
+        auto = {i for i, row in enumerate(self.contacts, 1) if row[0] == "auto"}
         self.assertEqual(auto - set(first), {len(self.contacts) - 1, len(self.contacts)})
         self.assertLessEqual(set(first), auto)
         self.assertLessEqual({1.0, 2.0, 3.0}, set(first.values()))
@@ -285,8 +284,8 @@ class Figures(HostTest):
                     for i, value in enumerate(values, 1):
                         found[f"{what}_{name}", number, step, i] = value
 
-        methods = sys.modules["faststrip._contact"]
-        wanted = {"target": TARGETS[target], "tolerance": tolerance} if normal == AUTO[0] else {}
+        package = sys.modules["faststrip._contact"]
+        wanted = {"target": TARGETS[target], "tolerance": tolerance} if normal == "auto" else {}
 
         def show_steps(result, step):
             numbers = {"n_steps": len(result.steps), "est_err_target": result.est_err_target or 0.0,
@@ -296,8 +295,8 @@ class Figures(HostTest):
             found.update({(name, number, step, 0): value for name, value in numbers.items()})
             for i, one in enumerate(result.steps, 1):
                 for name, value in (
-                        ("normal", methods.NORMAL[one.normal]),
-                        ("tangential", methods.TANGENTIAL[one.tangential]),
+                        ("normal", package.NORMAL[one.normal]),
+                        ("tangential", package.TANGENTIAL[one.tangential]),
                         ("strips", one.strips), ("points", one.points_per_strip),
                         ("estimate", -1.0 if one.estimate is None else one.estimate)):
                     found[f"step_{name}", number, step, i] = value
@@ -386,8 +385,8 @@ class Figures(HostTest):
             self.assertEqual(getattr(material, name), self.wanted[f"default_{name}", 0, 0, 0])
         y, h, inv2r, _ = zip(*self.contacts[0][-1])
         bare, told = package.Contact(), package.Contact(
-            normal=NORMAL[int(self.wanted["default_normal", 0, 0, 0]) - 1],
-            tangential=TANGENTIAL[int(self.wanted["default_tangential", 0, 0, 0])],
+            normal=name_of(NORMAL, self.wanted["default_normal", 0, 0, 0]),
+            tangential=name_of(TANGENTIAL, self.wanted["default_tangential", 0, 0, 0]),
             strips_per_patch=int(self.wanted["default_strips_per_patch", 0, 0, 0]),
             points_per_strip=int(self.wanted["default_points_per_strip", 0, 0, 0]),
             estimate=self.wanted["default_estimate", 0, 0, 0] == 1.0)

@@ -7,6 +7,7 @@ import math
 import re
 import subprocess
 
+import methods
 from installed import HostTest
 
 POINTS = 401
@@ -172,12 +173,12 @@ class Values(HostTest):
                 self.close(found, line[column], name)
 
     def test_f77(self):
-        numbers = {"strip": 1, "hertz": 2, "equal_area": 3, "faststrip": 1, "fastsim": 2,
-                   "fastsim-weighted": 6, "linear": 7, "polach": 9}
+        normals, tangentials = methods.listed("normal"), methods.listed("tangential")
         for way in WAYS:
             with self.subTest(way):
                 row, strips = self.program(way)
-                lines = self.host(numbers[way[0]], numbers[way[1]], *way[2:4], *way[4])
+                lines = self.host(normals[way[0]].number, tangentials[way[1]].number,
+                                  *way[2:4], *way[4])
                 self.assertEqual(lines[0][0], 0.0)
                 for found, name, column in zip(lines[0][1:], NAMES, COLUMNS):
                     if row[column]:

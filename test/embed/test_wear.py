@@ -5,13 +5,13 @@ import math
 import struct
 import subprocess
 
+import methods
 from installed import HOSTS, HostTest
 
 REGIMES = ((0.0, 1.5, 0.2, 0.7), (1.5, 4.0, 2.0, 0.0), (4.0, 400.0, 1.0, 0.25))
 DENSITY, YIELD = 7850.0, 310.0
+NORMAL, TANGENTIAL = methods.listed("normal"), methods.listed("tangential")
 KINDS = {"constant": 0, "linear": 2, "rational": 3, "exponential": 4}
-NORMAL = {"strip": 1, "hertz": 2}
-TANGENTIAL = {"faststrip": 1, "fastsim": 2, "polach": 9}
 NAMES = ("kinetic_share", "half_slip_speed", "slope_factor", "flange_share", "tread_angle",
          "flange_angle")
 # Methods, kind, mu; kinetic share, half-value slip speed, slope factor, flange; speed, angle.
@@ -30,8 +30,9 @@ def input_text():
     lines = [f"{len(WAYS)} {len(REGIMES)} {DENSITY} {YIELD}"]
     lines += [" ".join(map(repr, regime)) for regime in REGIMES]
     for normal, tangential, kind, mu, share, half, slope, *flange, speed, angle in WAYS:
-        lines.append(" ".join(map(str, (NORMAL[normal], TANGENTIAL[tangential], KINDS[kind], mu,
-                                        share, half, speed, slope, *flange, angle))))
+        lines.append(" ".join(map(str, (NORMAL[normal].number, TANGENTIAL[tangential].number,
+                                        KINDS[kind], mu, share, half, speed, slope, *flange,
+                                        angle))))
     return "\n".join(lines) + "\n"
 
 

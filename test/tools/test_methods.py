@@ -47,19 +47,22 @@ class Methods(unittest.TestCase):
         self.assertNotIn("docs/usage.md", done.stderr)
 
     def test_a_new_row_reaches_all_that_repeats_it(self):
+        free = 1 + max(m.number for m in methods.listed("tangential", core_only=False).values())
         self.change(methods.LIST, "        method_t(9, 'polach'",
-                    "        method_t(12, 'new-one', needs='strips', gives_elements=.false., &\n"
+                    f"        method_t({free}, 'new-one', needs='strips', &\n"
+                    "                 gives_elements=.false., &\n"
                     "                 help='what''s new (12)'), &\n"
                     "        method_t(9, 'polach'")
         self.assertEqual(self.run_tool("--check").returncode, 1)
         self.assertEqual(self.run_tool().returncode, 0)
         self.assertEqual(self.run_tool("--check").returncode, 0)
         for path, words in (
-            (methods.LIST, "parameter :: tangential_new_one = 12"),
+            (methods.LIST, f"parameter :: tangential_new_one = {free}"),
             ("src/faststrip/faststrip.f90", " tangential_new_one"),
-            ("include/faststrip.h", "FASTSTRIP_TANGENTIAL_NEW_ONE = 12"),
-            ("src/faststrip/interop/f77/f77.f90", "12 new-one"),
-            ("python/faststrip/_contact.py", '"new-one": 12,'),
+            ("example/hosts/tour.f90", " tangential_new_one"),
+            ("include/faststrip.h", f"FASTSTRIP_TANGENTIAL_NEW_ONE = {free}"),
+            ("src/faststrip/interop/f77/f77.f90", f"{free} new-one"),
+            ("python/faststrip/_contact.py", f'"new-one": {free},'),
             ("docs/usage.md", "| `new-one` | what's new (12); no elements | strips |"),
         ):
             self.assertIn(words, self.read(path), path)

@@ -5,9 +5,10 @@
 
 The list is that of src/faststrip/contact/methods.f90: one row a method. Written from it, between
 lines with `BEGIN methods` and `END methods`, are the numbers there, what `use faststrip` gives, the
-enumerations of the C header, the comment of the F77 interface, Python's dictionaries and the tables
-of docs/usage.md. The command line and its help, and so the man page, read the list itself. With
---check nothing is written; the exit code is 1 if something would be.
+lists of example/hosts/tour.f90, the enumerations of the C header, the comment of the F77 interface,
+Python's dictionaries and the tables of docs/usage.md. The command line and its help, and so the man
+page, read the list itself. With --check nothing is written; the exit code is 1 if something would
+be.
 """
 
 import argparse
@@ -62,6 +63,13 @@ def in_order(methods, core_only=True):
     return sorted((m for m in methods if m.in_core or not core_only), key=lambda m: m.number)
 
 
+def listed(part, core_only=True):
+    """The methods of the checkout, by name: of a part, `normal` or `tangential`, as people see
+    them."""
+    methods = read_methods((ROOT / LIST).read_text(encoding="utf-8"))
+    return {m.name: m for m in methods[part] if m.in_core or not core_only}
+
+
 def wrapped(words, indent, first, end=""):
     """Words in lines; `first` begins the first one, `end` ends all but the last."""
     lines, line = [], first
@@ -92,6 +100,17 @@ def umbrella(methods):
     names = [m.constant() for part in methods for m in in_order(methods[part], core_only=False)]
     words = [f"{name}," for name in names[:-1]] + [names[-1]]
     return wrapped(words, " " * 41, "    use faststrip_contact_methods, only:", " &")
+
+
+def tour(methods):
+    """The arrays of the example that goes through all methods of the core."""
+    lines = []
+    for part in methods:
+        names = [m.constant() for m in in_order(methods[part])]
+        words = [f"{name}," for name in names[:-1]] + [names[-1] + "]"]
+        lines += [f"    integer, parameter :: {part}s(*) = [ &",
+                  *wrapped(words, " " * 8, " " * 8, " &")]
+    return lines
 
 
 def header(methods):
@@ -150,6 +169,7 @@ OWN_MARKS = {"src/faststrip/interop/f77/f77.f90": (r"(?=^!> IOPT\(1\))", r"(?=^!
 TARGETS = {
     LIST: numbers,
     "src/faststrip/faststrip.f90": umbrella,
+    "example/hosts/tour.f90": tour,
     "include/faststrip.h": header,
     "src/faststrip/interop/f77/f77.f90": comment,
     "python/faststrip/_contact.py": dictionaries,

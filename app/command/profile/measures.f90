@@ -100,6 +100,7 @@ contains
         if (is_error(measures%status)) then
             call put_cell(writer, trim(measures%points%format))
             call put_cell(writer, kind_word(measures%points%kind))
+            ! Given: behind three, before the last two.
             call put_empty_cells(writer, size(columns) - 5)
             call put_cell(writer, trim(status_word(measures%status%code)))
             call put_cell(writer, printable(trim(measures%status%message)))

@@ -35,32 +35,32 @@ module faststrip_command_rows_result_csv
     public :: element_columns, put_element
 
     !> Names of the columns of an element, in the order of `put_element`.
-    character(len=*), parameter :: element_columns(10) = [character(len=9) :: &
+    character(len=*), parameter :: element_columns(*) = [character(len=9) :: &
         'x_mm', 'y_mm', 'area_mm2', 'state', 'pn_MPa', 'px_MPa', 'py_MPa', 'sx', 'sy', 'power_MPa']
 
     !> Begins what is said where there is no wear in spite of a law.
     character(len=*), parameter :: no_wear = 'no wear: '
 
     !> Figures in the order of their columns: of the pressures and forces, times, errors; of wear.
-    integer, parameter :: main_figures(23) = [ &
+    integer, parameter :: main_figures(*) = [ &
         figure_penetration, figure_area, figure_pmax, figure_y_min, figure_y_max, figure_x_max, &
         figure_n_patches, figure_fx, figure_fy, figure_mz, figure_friction_power, &
         figure_stick_fraction, figure_normal_us, figure_tangential_us, figure_residual_inside, &
         figure_overlap_outside, figure_est_err_penetration, figure_est_err_pmax, &
         figure_est_err_area, figure_est_err_fx, figure_est_err_fy, figure_est_err_mz, &
         figure_gap_change]
-    integer, parameter :: wear_figures(6) = [ &
+    integer, parameter :: wear_figures(*) = [ &
         figure_t_gamma, figure_t_gamma_spin, figure_t_gamma_per_area, figure_fatigue_index, &
         figure_wear_mass, figure_wear_volume]
 
     !> Names of a strip's columns, in the order of `put_strip`.
-    character(len=*), parameter :: strip_columns(15) = [character(len=26) :: &
+    character(len=*), parameter :: strip_columns(*) = [character(len=26) :: &
         'patch', 'strip', 'y_left_mm', 'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', &
         'load_N', 'Fx_N', 'Fy_N', 'friction_power_N', 't_gamma_per_area_N_per_mm2', &
         'wear_ug_per_m', 'wear_depth_mm_per_pass', 'wear_depth_mm_per_km']
 
     !> Names of the columns, in the order of `put_result`.
-    character(len=*), parameter :: result_columns(33) = [character(len=26) :: &
+    character(len=*), parameter :: result_columns(*) = [character(len=26) :: &
         'status', figures(main_figures)%column, 'choice', figures(figure_strips_across)%column, &
         'limitations', figures(wear_figures)%column]
 
