@@ -4,8 +4,8 @@ module faststrip_command_profile
     use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_text_t, csv_writer_t, put_comment
-    use faststrip_files_profile, only: read_profile, profile_options_t, profile_file_t, &
-                                       body_wheel, body_rail
+    use faststrip_files_profile, only: read_profile, profile_formats, profile_options_t, &
+                                       profile_file_t, body_wheel, body_rail
     use faststrip_files_profile_writer, only: write_profile, check_profile_name
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           profile_at
@@ -49,16 +49,23 @@ contains
         type(curation_t) :: curation
         type(measures_t), allocatable :: measures(:)
         type(nominal_t) :: nominal
+        character, parameter :: newline = new_line('a')
         integer :: i, n, n_failed
 
         command%name = 'profile'
         command%usage = 'FILE...'
-        command%about = &
-            'Read wheel and rail profiles: MiniProf (.whl, .ban, .mpt), SIMPACK (.prw, .prr),' // &
-            new_line('a') // 'VAMPIRE (.whe, .rai), GENSYS (.wheel), two-column text, CSV. Rows' &
-            // new_line('a') // 'of a CSV describe them: y to the field side, z down, mm.' // &
-            new_line('a') // 'Nothing is repaired unasked; what is asked for is done in the' // &
-            new_line('a') // 'order below.' // new_line('a')
+        command%about = 'Read wheel and rail profiles: two-column text, CSV and files of' &
+                        // newline
+        do i = 1, size(profile_formats)
+            command%about = command%about // '  ' // profile_formats(i)%name
+            do n = 1, size(profile_formats(i)%endings)
+                command%about = command%about // ' ' // trim(profile_formats(i)%endings(n))
+            end do
+            command%about = trim(command%about) // newline
+        end do
+        command%about = command%about // &
+            'Rows of a CSV describe them: y to the field side, z down, mm. Nothing is repaired' // &
+            newline // 'unasked; what is asked for is done in the order below.' // newline
         command%options = [ &
             option_t('-o', 'FILE', 'write the profile there: .csv, .prw or .prr', writes=.true.), &
             option_t('--table', 'FILE', 'write the CSV of descriptions there (default stdout)', &

@@ -21,12 +21,26 @@ module faststrip_files_profile
     implicit none
     private
 
-    public :: read_profile, profile_file_t, profile_options_t, key_t, length_unit, ends_with
+    public :: read_profile, profile_format_t, profile_formats, profile_file_t, profile_options_t
+    public :: key_t, length_unit, ends_with
     public :: body_wheel, body_rail
 
-    ! Formats.
-    integer, parameter :: is_text = 0, is_simpack = 1, is_miniprof = 2, is_vampire = 3, &
-                          is_gensys_wheel = 4, is_gensys_rail = 5
+    !> A format besides text of two columns.
+    type :: profile_format_t
+        character(len=8) :: name = ''       !! of the program
+        character(len=6) :: endings(3) = '' !! of names: wheels, rails, either; lower case
+    end type profile_format_t
+
+    ! Formats: rows of the table.
+    integer, parameter :: is_text = 0, is_miniprof = 1, is_simpack = 2, is_vampire = 3, &
+                          is_gensys = 4
+
+    !> All of them.
+    type(profile_format_t), parameter :: profile_formats(*) = [ &
+        profile_format_t('MiniProf', [character(len=6) :: '.whl', '.ban', '.mpt']), &
+        profile_format_t('SIMPACK', [character(len=6) :: '.prw', '.prr', '']), &
+        profile_format_t('VAMPIRE', [character(len=6) :: '.whe', '.rai', '']), &
+        profile_format_t('GENSYS', [character(len=6) :: '.wheel', '.rail', ''])]
 
     ! Lines above the points that are looked at for the format.
     integer, parameter :: first_lines = 60
@@ -61,14 +75,8 @@ contains
             call read_miniprof(path, lines, options, profile, status)
         case (is_vampire)
             call read_vampire(path, lines, options, profile, status)
-        case (is_gensys_wheel)
-            call read_text_profile(path, lines, .true., options, profile, status)
-        case (is_gensys_rail)
-            call read_text_profile(path, lines, .false., options, profile, status)
-            profile%format = 'gensys'
-            if (.not. is_error(status) .and. options%y_sense == 0) &
-                call set_place_status(status, st_file_format, 'the sense of y of a GENSYS rail ' &
-                                      // 'must be given (--y-positive-to)', '', path, 0)
+        case (is_gensys)
+            call read_gensys(path, lines, options, profile, status)
         case default
             call read_text_profile(path, lines, .false., options, profile, status)
         end select
@@ -110,16 +118,44 @@ contains
         end if
     end subroutine check_options
 
+    !> A wheel of GENSYS, or a rail, whose sense of y is not known.
+    subroutine read_gensys(path, lines, options, profile, status)
+        character(len=*), intent(in) :: path
+        type(line_t), intent(in) :: lines(:)
+        type(profile_options_t), intent(in) :: options
+        type(profile_file_t), intent(inout) :: profile
+        type(status_t), intent(out) :: status
+
+        logical :: is_rail
+
+        is_rail = profile%kind == body_rail
+        call read_text_profile(path, lines, .not. is_rail, options, profile, status)
+        profile%format = 'gensys'
+        if (is_rail .and. .not. is_error(status) .and. options%y_sense == 0) &
+            call set_place_status(status, st_file_format, 'the sense of y of a GENSYS rail ' &
+                                  // 'must be given (--y-positive-to)', '', path, 0)
+    end subroutine read_gensys
+
     !> The kind that the end of a name stands for.
     pure integer function kind_of_name(path) result(kind)
         character(len=*), intent(in) :: path
 
+        integer :: i
+
         kind = 0
-        if (ends_with(path, '.whl') .or. ends_with(path, '.whe') .or. ends_with(path, '.prw') &
-            .or. ends_with(path, '.wheel')) kind = body_wheel
-        if (ends_with(path, '.ban') .or. ends_with(path, '.rai') .or. ends_with(path, '.prr') &
-            .or. ends_with(path, '.rail')) kind = body_rail
+        do i = 1, size(profile_formats)
+            if (has_ending(path, i, 1)) kind = body_wheel
+            if (has_ending(path, i, 2)) kind = body_rail
+        end do
     end function kind_of_name
+
+    pure logical function has_ending(path, format, which)
+        character(len=*), intent(in) :: path
+        integer, intent(in) :: format, which
+
+        has_ending = len_trim(profile_formats(format)%endings(which)) > 0
+        if (has_ending) has_ending = ends_with(path, trim(profile_formats(format)%endings(which)))
+    end function has_ending
 
     !> By what stands in the file, then by its name.
     pure integer function format_of(path, lines) result(format)
@@ -132,12 +168,10 @@ contains
 
         format = is_text
         line = ''
-        if (ends_with(path, '.prw') .or. ends_with(path, '.prr')) format = is_simpack
-        if (ends_with(path, '.whl') .or. ends_with(path, '.ban') .or. ends_with(path, '.mpt')) &
-            format = is_miniprof
-        if (ends_with(path, '.whe') .or. ends_with(path, '.rai')) format = is_vampire
-        if (ends_with(path, '.wheel')) format = is_gensys_wheel
-        if (ends_with(path, '.rail')) format = is_gensys_rail
+        do i = 1, size(profile_formats)
+            if (has_ending(path, i, 1) .or. has_ending(path, i, 2) .or. has_ending(path, i, 3)) &
+                format = i
+        end do
         do i = 1, min(size(lines), first_lines)
             line = lower_case(without_comment(lines(i)%text, '!%'))
             if (i == 1 .and. (line == 'wheelprofile' .or. line == 'railprofile')) then
