@@ -133,8 +133,9 @@ class Bench(LabTest):
 
     def test_convergence(self):
         rows, _ = self.bench("convergence", "--most-strips", "15")
-        self.assertEqual(list(rows[0]),
-                         "case,strips,status,penetration_err,pmax_err,area_err".split(","))
+        self.assertEqual(list(rows[0]), (
+            "set,case,method,strips,status,strips_used,iterations,penetration_err,pmax_err,"
+            "area_err,ymin_err_mm,ymax_err_mm").split(","))
         self.assertEqual(len(rows), (3 + 12) * 5)
         errors = {}
         for row in rows:
@@ -144,6 +145,21 @@ class Bench(LabTest):
         # Second order in the number of strips.
         order = math.log(statistics.median(errors[5]) / statistics.median(errors[15]), 3)
         self.assertTrue(1.6 < order < 2.6, order)
+
+    def test_robust(self):
+        rows, said = self.bench("robust")
+        counts = {}
+        for row in rows:
+            self.assertIn(row["status"], ("ok", "under_resolved"), row)
+            self.assertLess(abs(float(row["penetration_err"])), 2e-2, row)
+            kind = row["set"], row["method"]
+            counts[kind] = counts.get(kind, 0) + 1
+        self.assertEqual(counts, {("contacts", "lattice"): 3 * 4, ("ellipses", "lattice"): 12 * 4,
+                                  ("kinks", "strip"): 10 * 4, ("flat_tops", "strip"): 6 * 4})
+        self.assertEqual(said.count("mean/max"), 16)
+        finest = [abs(float(row["pmax_err"])) for row in rows if row["strips"] == "201"]
+        usual = [abs(float(row["pmax_err"])) for row in rows if row["strips"] == "15"]
+        self.assertLess(max(finest), 0.1 * max(usual))
 
     def test_refused(self):
         for words, says in ((["guess"], "guess"), ([], "WHAT"),

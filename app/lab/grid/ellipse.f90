@@ -82,6 +82,8 @@ contains
         truth%penetration = hertz%penetration
         truth%pmax = hertz%pmax
         truth%area = hertz%area
+        truth%y_min = -hertz%b
+        truth%y_max = hertz%b
         contact%gap = gap_t()
         associate (gap => contact%gap)
             allocate (gap%y(points), gap%h(points), gap%inv2r(points))
