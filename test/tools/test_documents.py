@@ -1,6 +1,5 @@
 """The documents: links lead somewhere, formulas can be shown, deviations are numbered once."""
 
-import importlib.util
 import re
 import tempfile
 import unittest
@@ -12,7 +11,7 @@ import steps
 
 ROOT = Path(__file__).resolve().parents[2]
 
-PAGES = [ROOT / source for _, source, _ in document.PAGES]
+PAGES = [ROOT / source for _, source in document.PAGES]
 LABEL = r"- \*\*([NFSPLKV]\d+)\*\* "
 
 # Tuned numbers of the code, by file and name, and how docs/method.md says them.
@@ -80,10 +79,10 @@ class OfTheProject(unittest.TestCase):
                 self.assertEqual(named - set(steps.STEPS) - {"help"}, set(), path.name)
 
     def test_the_navigation_names_each_page_once(self):
-        for k in range(3):
+        for k in range(2):
             names = [page[k] for page in document.PAGES]
             self.assertEqual(len(set(names)), len(names))
-        self.assertEqual(document.PAGES[0][2], "index.html")
+        self.assertEqual(document.PAGES[0][1], "README.md")
 
     def test_formulas_can_be_shown(self):
         count = 0
@@ -159,25 +158,6 @@ class OfTheProject(unittest.TestCase):
         lines = re.sub(r"(?m)^<!--.*?-->\n", "", text).splitlines()
         self.assertLessEqual(len(lines), 160)
 
-    @unittest.skipUnless(importlib.util.find_spec("markdown")
-                         and importlib.util.find_spec("latex2mathml"),
-                         "./run docs installs what the site is made with")
-    def test_pages_become_html_with_mathml_and_no_script(self):
-        for path in PAGES:
-            text = path.read_text(encoding="utf-8")
-            body = pages.to_html(text, lambda link: link)
-            self.assertEqual(body.count("<math"), len(pages.formulas(text)), path.name)
-            for left in ("@KEPT", "<script", "<merror", "\\frac", "<p>|"):
-                self.assertNotIn(left, body, path.name)
-            made = re.findall(r'<h\d id="([^"]+)"', body)
-            self.assertEqual(made, pages.anchors(text), path.name)
-            found = pages.sections(body)
-            self.assertEqual([anchor for anchor, *_ in found], made, path.name)
-            self.assertEqual(body.count("<figure>"), len(pages.pictures(text)))
-            for _, _, heading, words in found:
-                self.assertTrue(heading, path.name)
-                self.assertNotRegex(heading + words, r"</?(p|a|code|mi)\b|&lt;|@KEPT", path.name)
-
 
 class Tools(unittest.TestCase):
     """What the checks above rest on, on pages made to fail them."""
@@ -213,18 +193,18 @@ class Tools(unittest.TestCase):
         for bad in ("\\unheard{x}", "\\frac{a}{b", "a & b", "\\left( x", "|x|"):
             self.assertEqual(pages.strange_formulas(f"${bad}$\n"), [bad])
 
-    def test_the_search_finds_sections_without_formulas(self):
-        body = ('<h1 id="a">A &amp; <code>b_c</code></h1><p>x <math><mi>y</mi></math> z</p>\n'
-                '<h2 id="d">D</h2><p>1 &lt; 2</p>')
-        self.assertEqual(pages.sections(body), [("a", 1, "A & b_c", "x z"), ("d", 2, "D", "1 < 2")])
+    def test_a_page_shows_its_pictures_and_names_its_files(self):
+        text = ("<!-- picture: out/a.png Two\nwords. -->\n\n<!-- file: a.nml -->\n```text\n"
+                "&contact\n```\n")
+        self.assertEqual(document.for_sphinx(text, "docs/start.md"),
+                         "```{figure} /out/a.png\nTwo words.\n```\n\n`a.nml`:\n\n```text\n"
+                         "&contact\n```\n")
 
-    def test_the_menu_opens_the_page_it_is_on(self):
-        groups = [("One", [("A & B", "a.html"), ("C", "c.html")])]
-        menu = pages.menu(groups, "c.html", [("x-y", "X Y")])
-        self.assertIn('<a href="a.html">A &amp; B</a>', menu)
-        self.assertIn('<a href="c.html" aria-current="page">C</a>\n<ul>\n'
-                      '<li><a href="#x-y">X Y</a>', menu)
-        self.assertEqual(menu.count("<ul>"), 2)
+    def test_the_first_page_has_the_navigation(self):
+        text = document.for_sphinx("# faststrip\n", "README.md")
+        self.assertEqual(text.count("{toctree}"), len(document.GROUPS))
+        for words, file in [*document.PAGES[1:], document.API]:
+            self.assertIn(f"\n{words} <{file.removesuffix('.md')}>\n", text)
 
     def test_pictures_are_named_outside_of_code(self):
         text = ("<!-- picture: out/a.png Two\nwords. -->\n\n```text\n<!-- picture: b.png no -->\n"

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Build the site of faststrip into out/docs: the pages, and the Fortran interface by FORD in api/.
+"""Build the site of faststrip into out/docs: the pages by Sphinx, and the Fortran interface by FORD
+in api/.
 
     document.py
 
@@ -9,9 +10,6 @@ leads nowhere.
 """
 
 import argparse
-import html
-import importlib.resources
-import json
 import pathlib
 import re
 import shutil
@@ -20,41 +18,43 @@ import sys
 import tempfile
 
 import blocks
-from pages import menu, page, pictures, plain, sections, to_html
+from pages import FILE, PICTURE, links, pictures, strange_formulas
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITE = ROOT / "out" / "docs"
-# The navigation: groups of pages, what they are called there, file, page.
+# The navigation: groups of pages, what they are called there, file. Between the pages of the
+# project stands that of the Fortran interface, which is made here.
+API = ("Fortran interface", "interface.md")
 GROUPS = (
     ("Begin", (
-        ("faststrip", "README.md", "index.html"),
-        ("Start here", "docs/start.md", "start.html"))),
+        ("faststrip", "README.md"),
+        ("Start here", "docs/start.md"))),
     ("Tutorials", (
-        ("A worn wheel", "docs/tutorial_worn_wheel.md", "tutorial_worn_wheel.html"),
-        ("Through a curve", "docs/tutorial_curve.md", "tutorial_curve.html"),
-        ("Conicity", "docs/tutorial_conicity.md", "tutorial_conicity.html"),
-        ("A table for an old code", "docs/tutorial_table.md", "tutorial_table.html"),
-        ("Into Fortran 77", "docs/tutorial_fortran77.md", "tutorial_fortran77.html"),
-        ("How accurate is it", "docs/tutorial_accuracy.md", "tutorial_accuracy.html"))),
+        ("A worn wheel", "docs/tutorial_worn_wheel.md"),
+        ("Through a curve", "docs/tutorial_curve.md"),
+        ("Conicity", "docs/tutorial_conicity.md"),
+        ("A table for an old code", "docs/tutorial_table.md"),
+        ("Into Fortran 77", "docs/tutorial_fortran77.md"),
+        ("How accurate is it", "docs/tutorial_accuracy.md"))),
     ("Use", (
-        ("Usage", "docs/usage.md", "usage.html"),
-        ("Formats", "docs/formats.md", "formats.html"),
-        ("Limitations and errors", "docs/errors.md", "errors.html"),
-        ("From FASTSIM or CONTACT", "docs/migration.md", "migration.html"),
-        ("Embedding", "docs/embedding.md", "embedding.html"))),
+        ("Usage", "docs/usage.md"),
+        ("Formats", "docs/formats.md"),
+        ("Limitations and errors", "docs/errors.md"),
+        ("From FASTSIM or CONTACT", "docs/migration.md"),
+        ("Embedding", "docs/embedding.md"),
+        API)),
     ("Behind it", (
-        ("Method", "docs/method.md", "method.html"),
-        ("Validation", "docs/validation.md", "validation.html"),
-        ("Constants", "docs/constants.md", "constants.html"),
-        ("Architecture", "docs/architecture.md", "architecture.html"),
-        ("Extending", "docs/extending.md", "extending.html"),
-        ("References", "reference/README.md", "reference.html"))),
+        ("Method", "docs/method.md"),
+        ("Validation", "docs/validation.md"),
+        ("Constants", "docs/constants.md"),
+        ("Architecture", "docs/architecture.md"),
+        ("Extending", "docs/extending.md"),
+        ("References", "reference/README.md"))),
     ("Project", (
-        ("Contributing", "CONTRIBUTING.md", "contributing.html"),
-        ("Changes", "CHANGELOG.md", "changelog.html"))),
+        ("Contributing", "CONTRIBUTING.md"),
+        ("Changes", "CHANGELOG.md"))),
 )
-PAGES = tuple(page for _, pages in GROUPS for page in pages)
-API = ("Fortran interface", "api/index.html")
+PAGES = tuple(page for _, pages in GROUPS for page in pages if page != API)
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//|(?:mailto|data):")
 # A length that is asked with several arguments.
 LENGTH = re.compile(r"\b(character\(len=)(\w+)\([^()]*,[^()]*\)\)", re.IGNORECASE)
@@ -68,9 +68,10 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.parse_args()
     shutil.rmtree(SITE, ignore_errors=True)
-    SITE.mkdir(parents=True)
     build_api()
-    write_search([*build_pages(), *entities()])
+    with tempfile.TemporaryDirectory() as folder:
+        gather(pathlib.Path(folder))
+        build_pages(folder)
     broken = sorted(broken_targets())
     if broken:
         sys.exit("\n".join(broken))
@@ -108,85 +109,88 @@ def build_api():
                                text), encoding="utf-8")
 
 
-def build_pages():
-    """The Markdown files of PAGES; what else they point to is copied into files/. What the search
-    finds in them: names, heading, target and words."""
-    known = {(ROOT / source).resolve(): target for _, source, target in PAGES}
-    groups = [(name, [(words, target) for words, _, target in pages]) for name, pages in GROUPS]
-    groups[-1][1].append(API)
-    report = (ROOT / "plots" / "faststrip_plots" / "document.css").read_text(encoding="utf-8")
-    own = (ROOT / "docs" / "pages.css").read_text(encoding="utf-8")
-    (SITE / "pages.css").write_text(report + own, encoding="utf-8")
-    shutil.copy(ROOT / "docs" / "search.js", SITE / "search.js")
-    found = []
-    for words, source, target in PAGES:
+def gather(folder):
+    """The pages as Sphinx reads them, what they point to, and the pictures they make."""
+    shutil.copytree(ROOT / "tools" / "docs" / "site", folder, dirs_exist_ok=True)
+    for _, source in PAGES:
         path = ROOT / source
         text = path.read_text(encoding="utf-8")
-        made = make_pictures(text, target.removesuffix(".html"))
-
-        def target_of(link, folder=path.parent, made=made):
-            if link in made:
-                return made[link]
-            if ELSEWHERE.match(link) or link.startswith("#"):
-                return link
-            name, hash_sign, anchor = link.partition("#")
-            file = (folder / name).resolve()
-            if file in known:
-                return known[file] + hash_sign + anchor
-            if not file.is_file():
-                sys.exit(f"document: no such file: {link} ({source})")
-            copy = SITE / "files" / file.relative_to(ROOT.resolve())
-            copy.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(file, copy)
-            return copy.relative_to(SITE).as_posix()
-
-        body = to_html(text, target_of)
-        parts = sections(body)
-        headings = [(anchor, heading) for anchor, level, heading, _ in parts if level == 2]
-        title = words if words == "faststrip" else f"{words} - faststrip"
-        (SITE / target).write_text(page(title, body, menu(groups, target, headings)),
-                                   encoding="utf-8")
-        found += [(words, heading, f"{target}#{anchor}", text)
-                  for anchor, _, heading, text in parts]
-    return found
+        strange = strange_formulas(text)
+        if strange:
+            sys.exit(f"document: a formula that cannot be shown: {strange[0]} ({source})")
+        for link in links(text):
+            file = (path.parent / link.partition("#")[0]).resolve()
+            if ELSEWHERE.match(link) or file.suffix == ".md" or not file.is_file():
+                continue
+            copy(file, folder / file.relative_to(ROOT.resolve()))
+        make_pictures(text, folder)
+        copy_text(for_sphinx(text, source), folder / source)
+    copy_text(interface(), folder / API[1])
 
 
-def make_pictures(text, name):
-    """Run a page that has pictures; where in the site each of them lies."""
-    wanted = pictures(text)
-    if not wanted:
-        return {}
-    made = {}
-    with tempfile.TemporaryDirectory() as folder:
-        blocks.run(text, folder)
-        for file, _ in wanted:
-            copy = SITE / "files" / name / pathlib.Path(file).name
-            copy.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(pathlib.Path(folder, "checkout", file), copy)
-            made[file] = copy.relative_to(SITE).as_posix()
-    return made
+def copy(file, target):
+    target.parent.mkdir(parents=True, exist_ok=True)
+    shutil.copy(file, target)
 
 
-def entities():
-    """What the search finds in the Fortran interface: a page each of modules, types, procedures."""
-    for path in sorted((SITE / "api").rglob("*.html")):
-        kind = path.parent.name
-        if kind not in ("module", "type", "proc", "interface"):
-            continue
-        text = path.read_text(encoding="utf-8")
-        name = re.search(r"<title>\s*(\S+)", text)
-        summary = re.search(r'id="text".*?<p>(.*?)</p>', text, re.DOTALL)
-        yield (API[0], html.unescape(name[1]), path.relative_to(SITE).as_posix(),
-               plain(summary[1]) if summary else "")
+def copy_text(text, target):
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(text, encoding="utf-8")
 
 
-def write_search(entries):
-    """The search's data, a script because pages opened as files may not load anything else."""
-    rows = [dict(zip(("page", "heading", "target", "words"), entry)) for entry in entries]
-    (SITE / "search_data.js").write_text(
-        f"const sections = {json.dumps(rows, ensure_ascii=False)};\n", encoding="utf-8")
-    lunr = importlib.resources.files("mkdocs") / "contrib/search/templates/search/lunr.js"
-    (SITE / "lunr.js").write_bytes(lunr.read_bytes())
+def make_pictures(text, folder):
+    """Run a page that has pictures."""
+    if not pictures(text):
+        return
+    with tempfile.TemporaryDirectory() as ran:
+        blocks.run(text, ran)
+        for file, _ in pictures(text):
+            copy(pathlib.Path(ran, "checkout", file), folder / file)
+
+
+def for_sphinx(text, source):
+    """A page with its pictures and names of files in sight; the first has the navigation."""
+    text = PICTURE.sub(lambda match: f"```{{figure}} /{match['file']}\n"
+                       f"{' '.join(match['words'].split())}\n```", text)
+    text = FILE.sub(r"`\g<name>`:\n", text)
+    if source != "README.md":
+        return text
+    for name, pages in GROUPS:
+        entries = "\n".join(f"{words} <{file.removesuffix('.md')}>" for words, file in pages
+                            if file != source)
+        text += f"\n```{{toctree}}\n:hidden:\n:caption: {name}\n\n{entries}\n```\n"
+    return text
+
+
+def build_pages(folder):
+    """The pages by Sphinx; the first one is README.html."""
+    done = subprocess.run([sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "-j", "auto",
+                           "-D", "root_doc=README", folder, str(SITE)], cwd=ROOT,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
+                          check=False)
+    if done.returncode != 0:
+        sys.exit(done.stdout)
+    shutil.rmtree(SITE / ".doctrees", ignore_errors=True)
+    (SITE / "index.html").write_text(
+        '<!DOCTYPE html><meta http-equiv="refresh" content="0; url=README.html">'
+        '<a href="README.html">faststrip</a>\n', encoding="utf-8")
+
+
+def interface():
+    """A page that leads into FORD's: its modules, types and procedures, which the search finds."""
+    lines = ["# Fortran interface", "", '<a href="api/index.html">All of it</a>: modules, their '
+             "types and procedures, made from the sources.", ""]
+    for kind, title in (("module", "Modules"), ("type", "Types"), ("proc", "Procedures"),
+                        ("interface", "Interfaces")):
+        lines += [f"## {title}", ""]
+        for path in sorted((SITE / "api" / kind).glob("*.html")):
+            text = path.read_text(encoding="utf-8")
+            name = re.search(r"<title>\s*(\S+)", text)[1]
+            summary = re.search(r"id='text'>.*?<p>(.*?)</p>", text, re.DOTALL)
+            words = " ".join(re.sub(r"<[^>]+>", " ", summary[1]).split()) if summary else ""
+            lines.append(f'- <a href="{path.relative_to(SITE).as_posix()}">{name}</a> {words}')
+        lines.append("")
+    return "\n".join(lines)
 
 
 def broken_targets():
@@ -202,7 +206,7 @@ def broken_targets():
             name, _, anchor = target.partition("#")
             if ELSEWHERE.match(target) or target.startswith("javascript"):
                 continue
-            file = (path.parent / name).resolve() if name else path
+            file = (path.parent / name.partition("?")[0]).resolve() if name else path
             if not file.exists():
                 yield f"{here}: leads nowhere: {target}"
             elif anchor and "api" not in here.parts and anchor not in names.get(file, {anchor}):

@@ -1,14 +1,12 @@
-"""Markdown pages: their headings and links as GitHub sees them, and as HTML for the site.
+"""Markdown pages: their headings, links, formulas and pictures as GitHub sees them.
 
 Formulas are LaTeX between dollar signs, `$x$` in a line and `$$` on lines of their own around a
-block. The site holds them as MathML, which browsers show without any script. A picture is a
-comment, `<!-- picture: FILE Words. -->`: the site shows it, where commands of the page have made
-it.
+block. A picture is a comment, `<!-- picture: FILE Words. -->`: the site shows it, where commands of
+the page have made it.
 """
 
 from __future__ import annotations
 
-import html
 import re
 from pathlib import Path
 
@@ -99,111 +97,3 @@ def strange_formulas(text):
                 or formula.count("\\left") != formula.count("\\right")):
             found.append(formula)
     return found
-
-
-def to_html(text, target_of):
-    """The body of a page; `target_of` says where a link leads in the site, or a picture lies."""
-    import markdown  # of tools/requirements-docs.txt, which the tests do without
-    from latex2mathml.converter import convert
-
-    names = anchors(text)
-    kept = []
-
-    def keep(words):
-        kept.append(words)
-        return f"@KEPT{len(kept) - 1}@"
-
-    strange = strange_formulas(text)
-    if strange:
-        raise ValueError(f"a formula that cannot be shown: {strange[0]}")
-
-    def formula(match, display):
-        return keep(convert(match["formula"].strip(), display=display))
-
-    def figure(match):
-        words = html.escape(" ".join(match["words"].split()))
-        return "\n" + keep(f'<figure><img src="{target_of(match["file"])}" alt="{words}">\n'
-                           f"<figcaption>{words}</figcaption></figure>") + "\n"
-
-    text = FENCE.sub(lambda match: "\n" + keep(match[0]) + "\n", text)
-    text = FILE.sub(lambda match: keep(f'<p class="file">{match["name"]}</p>') + "\n",
-                    PICTURE.sub(figure, text))
-    text = COMMENT.sub("", text)
-    text = CODE.sub(lambda match: keep(match[0]), text)
-    text = BLOCK.sub(lambda match: formula(match, "block"), text)
-    text = INLINE.sub(lambda match: formula(match, "inline"), text)
-    text = LINK.sub(lambda match: match[0].replace(f"({match['target']})",
-                                                   f"({target_of(match['target'])})"), text)
-
-    def put_back(words, only_code):
-        def own(match):
-            content = kept[int(match[1])]
-            return match[0] if only_code and content.startswith("<math") else content
-        return re.sub(r"@KEPT(\d+)@", own, words)
-
-    text = put_back(text, only_code=True)
-    body = markdown.markdown(text, extensions=["tables", "fenced_code", "sane_lists"])
-    names = iter(names)
-    body = re.sub(r"<h([1-6])>", lambda match: f'<h{match[1]} id="{next(names)}">', body)
-    # On a screen a wide table has a box to scroll in.
-    body = re.sub(r"<table>.*?</table>", r'<div class="table" tabindex="0">\g<0></div>', body,
-                  flags=re.DOTALL)
-    return put_back(body, only_code=False)
-
-
-def sections(body):
-    """The sections of a page's body: anchor, level, heading and words, without formulas."""
-    parts = re.split(r'<h([1-6]) id="([^"]+)">(.*?)</h\1>', body, flags=re.DOTALL)
-    return [(anchor, int(level), plain(heading), plain(text))
-            for level, anchor, heading, text in zip(*(parts[k::4] for k in range(1, 5)))]
-
-
-def plain(body):
-    """The words of HTML."""
-    words = re.sub(r"<math.*?</math>|<[^>]+>", " ", body, flags=re.DOTALL)
-    return " ".join(html.unescape(words).split())
-
-
-def page(title, body, navigation):
-    """A whole HTML page; `navigation` is what `menu` makes."""
-    return f"""<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{html.escape(title)}</title>
-<link rel="stylesheet" href="pages.css">
-<script src="lunr.js" defer></script>
-<script src="search_data.js" defer></script>
-<script src="search.js" defer></script>
-</head>
-<body>
-<a class="skip" href="#content">To the text</a>
-<nav aria-label="pages">
-<input type="checkbox" id="unfold" aria-label="show all pages"><label for="unfold">Pages</label>
-<search><input type="search" id="search" placeholder="Search" aria-label="search all pages"
-autocomplete="off"><ol id="found" aria-live="polite"></ol></search>
-{navigation}
-</nav>
-<main id="content">
-{body}
-</main>
-</body>
-</html>
-"""
-
-
-def menu(groups, here, headings):
-    """The navigation: groups of words and targets, beneath the page `here` its own headings."""
-    lines = ['<div class="menu">']
-    for name, entries in groups:
-        lines.append(f"<h2>{html.escape(name)}</h2>\n<ul>")
-        for words, target in entries:
-            current = ' aria-current="page"' if target == here else ""
-            lines.append(f'<li><a href="{target}"{current}>{html.escape(words)}</a>')
-            if current and headings:
-                lines += ["<ul>", *(f'<li><a href="#{anchor}">{html.escape(heading)}</a></li>'
-                                    for anchor, heading in headings), "</ul>"]
-            lines.append("</li>")
-        lines.append("</ul>")
-    return "\n".join([*lines, "</div>"])
