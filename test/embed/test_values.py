@@ -1,5 +1,6 @@
-"""Every figure of C, Python and F77 against the program's: dissimilar bodies, an unsymmetric gap,
-all three creepages, friction and numbers of points that are no defaults."""
+"""Every figure of Python against the program's: dissimilar bodies, an unsymmetric gap, all three
+creepages, friction and numbers of points that are no defaults. The other interfaces have the bits
+of Python (test_figures)."""
 
 import csv
 import importlib
@@ -7,7 +8,6 @@ import math
 import re
 import subprocess
 
-import methods
 from installed import HostTest
 
 POINTS = 401
@@ -43,35 +43,6 @@ WAYS = (("strip", "faststrip", 11, 13, (50, 50)), ("strip", "fastsim", 9, 15, (1
         ("hertz", "polach", 15, 15, (50, 50)), ("equal_area", "linear", 15, 15, (50, 50)),
         ("hertz", "fastsim-weighted", 15, 15, (31, 8)))
 
-F77 = """\
-      PROGRAM VALUES
-      INTEGER IOPT(9), IW(8), INFO, I, N, K(2000)
-      DOUBLE PRECISION PAR(9), RES(14), Y(401), H(401), A(401), C(4)
-      DOUBLE PRECISION X(2000,8), F(3), G(4)
-      DO 10 I = 1, 401
-        READ (*, *) Y(I), H(I), A(I)
-   10 CONTINUE
-      CALL FSDFLT(IOPT, PAR)
-      READ (*, *) (IOPT(I), I=1,6)
-      READ (*, *) PAR
-      IF (IOPT(2) .LT. 7) IOPT(9) = 1
-      CALL FSINIT(IOPT, 401, IW, 8, INFO)
-      CALL FSCONT(IW, 401, Y, H, A, IOPT, PAR, RES, INFO)
-      WRITE (*, 20) INFO*1D0, RES
-      CALL FSSTRP(IW, 2000, N, X(1,1), X(1,2), X(1,3), X(1,4), K, INFO)
-      WRITE (*, 20) (X(I,1), X(I,2), X(I,3), X(I,4), K(I)*1D0, I=1,N)
-      CALL FSKALK(1.7D0, 0.3D0, C, INFO)
-      WRITE (*, 20) C
-      CALL FSHERZ(PAR, 1D-3, 3D-3, 5D4, G(1), G(2), G(3), G(4), INFO)
-      WRITE (*, 20) G
-      CALL FSTSIM(6D0, 4D0, 7D4, C(1), C(2), C(3), PAR(7), PAR(8),
-     &  PAR(9), 0.27D0, 8D4, 20, 30, F(1), F(2), F(3), INFO)
-      WRITE (*, 20) F
-   20 FORMAT (2000ES25.16)
-      CALL FSFREE(IW, INFO)
-      END
-"""
-
 
 class Values(HostTest):
     @classmethod
@@ -81,8 +52,6 @@ class Values(HostTest):
         cls.write("gap.csv", "y_mm,h_mm,inv2R_per_mm\n"
                   + "".join(f"{y!r},{h!r},{a!r}\n" for y, h, a in GAP))
         cls.write("case.nml", CASE)
-        cls.write("values.f", F77)
-        cls.shell("gfortran -std=legacy values.f $(pkg-config --libs faststrip) -o values")
 
     def table(self, name):
         text = (self.folder / name).read_text(encoding="utf-8")
@@ -105,7 +74,7 @@ class Values(HostTest):
         self.assertLessEqual(abs(float(found) - float(wanted)), 1e-9 * abs(float(wanted)) + 1e-12,
                              (what, found, wanted))
 
-    def test_python_and_c(self):
+    def test_a_contact(self):
         y, h, a = (self.numpy.array(column) for column in zip(*GAP))
         material = self.faststrip.Material(E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL)
         for way in WAYS:
@@ -172,49 +141,17 @@ class Values(HostTest):
             for found, line in zip(getattr(ours, name), lines, strict=True):
                 self.close(found, line[column], name)
 
-    def test_f77(self):
-        normals, tangentials = methods.listed("normal"), methods.listed("tangential")
-        for way in WAYS:
-            with self.subTest(way):
-                row, strips = self.program(way)
-                lines = self.host(normals[way[0]].number, tangentials[way[1]].number,
-                                  *way[2:4], *way[4])
-                self.assertEqual(lines[0][0], 0.0)
-                for found, name, column in zip(lines[0][1:], NAMES, COLUMNS):
-                    if row[column]:
-                        self.close(found, row[column], name)
-                self.assertEqual(lines[0][13:], [float(row["n_patches"]), len(strips)])
-                wanted = [float(line[column]) for line in strips for column in
-                          ("y_left_mm", "y_right_mm", "half_length_mm", "p0_MPa", "patch")]
-                self.assertEqual(len(lines[1]), len(wanted))
-                for found, value in zip(lines[1], wanted):
-                    self.close(found, value, "strips")
-
-    def host(self, *choices):
-        text = "".join(f"{y!r} {h!r} {a!r}\n" for y, h, a in GAP)
-        text += " ".join(str(choice) for choice in choices) + "\n"
-        text += " ".join(repr(value) for value in (E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL, MU, LOAD,
-                                                   *CREEPAGE)) + "\n"
-        done = subprocess.run([str(self.folder / "values")], input=text, cwd=self.folder,
-                              env=self.installed.environment, stdout=subprocess.PIPE,
-                              encoding="utf-8", check=True)
-        return [[float(word) for word in line.split()] for line in done.stdout.splitlines()]
-
-    def test_classics_of_both_against_formulas(self):
-        """Hertz by his equations, FASTSIM by its linear limit, and one interface by the other."""
+    def test_classics_against_formulas(self):
+        """Hertz by his equations, FASTSIM by its linear limit."""
         faststrip = self.faststrip
         material = faststrip.Material(E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL)
-        _, _, kalker, hertz, forces = self.host(1, 1, 5, 5, 10, 10)
-        for found, wanted in zip(kalker, faststrip.kalker(1.7, 0.3), strict=True):
-            self.close(found, wanted, "kalker")
+        kalker = faststrip.kalker(1.7, 0.3)
         # Kalker's table of 1967 by a/b and nu: C11 > C22 here, C33 the smallest of all.
         self.assertAlmostEqual(kalker[0], 5.1, delta=0.4)
         self.assertAlmostEqual(kalker[1], 4.6, delta=0.5)
         self.assertAlmostEqual(kalker[2], 2.2, delta=0.4)
         self.assertLess(kalker[3], 1.0)
-        for found, wanted in zip(hertz, faststrip.hertz(1e-3, 3e-3, 5e4, material), strict=True):
-            self.close(found, wanted, "hertz")
-        a, b, penetration, pmax = hertz
+        a, b, penetration, pmax = faststrip.hertz(1e-3, 3e-3, 5e4, material)
         self.assertGreater(a, 1.5 * b)
         self.close(pmax, 1.5 * 5e4 / (math.pi * a * b), "pmax")
         # Under the middle of an ellipsoidal pressure: 3/2 Q H times the mean of 1/r over the
@@ -224,10 +161,8 @@ class Values(HostTest):
         around = [math.hypot(a * math.sin(t), b * math.cos(t)) for t in steps]
         k = sum(1.0 / r for r in around) * math.pi / 2000 / 2.0
         self.close(penetration, 1.5 * 5e4 * compliance * k, "penetration")
-        sim = faststrip.fastsim(6.0, 4.0, tuple(kalker[:3]), CREEPAGE, 0.27, 8e4,
-                                shear_modulus=7e4, grid=(20, 30))
-        for found, wanted in zip(forces, sim, strict=True):
-            self.close(found, wanted, "fastsim")
+        forces = faststrip.fastsim(6.0, 4.0, tuple(kalker[:3]), CREEPAGE, 0.27, 8e4,
+                                   shear_modulus=7e4, grid=(20, 30))
         self.assertLess(forces[0], 0.0)
         self.assertGreater(forces[1], 0.0)
         self.assertNotAlmostEqual(forces[2], forces[1], delta=10.0)

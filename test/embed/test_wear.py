@@ -82,7 +82,7 @@ ANSWERS = {"nowhere": 100, "none": 100, "strips": 100, "unsolved": 100, "solved"
            "many": 100, "set": 0, "forgotten": 100, "falling": 8, "unknown": 100}
 
 
-class Faces(HostTest):
+class Interfaces(HostTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()

@@ -8,7 +8,7 @@ import struct
 from installed import HOSTS, HostTest
 
 
-class Faces(HostTest):
+class Interfaces(HostTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
