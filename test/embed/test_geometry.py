@@ -35,7 +35,7 @@ def bits(*numbers):
     return " ".join(struct.pack(">d", number).hex().upper() for number in numbers)
 
 
-class Faces(HostTest):
+class Interfaces(HostTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()

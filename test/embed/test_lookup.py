@@ -47,7 +47,7 @@ def number(bits):
     return struct.unpack(">d", bytes.fromhex(bits))[0]
 
 
-class Faces(HostTest):
+class Interfaces(HostTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
