@@ -62,7 +62,7 @@ contains
         call say('  merge PART.csv...      parts of a batch joined')
         call say('  sweep CASE.nml         a lateral-shift sweep, one row per shift and method')
         call say('  wheelset CASE.nml      contacts of a wheelset on a track, one row a contact')
-        call say('  profile FILE...        wheel and rail profiles: described, curated, drawn')
+        call say('  profile FILE...        wheel and rail profiles: described, cleaned, drawn')
         call say('  conicity               contact geometry and equivalent conicity of a wheelset')
         call say('  lookup ACTION          tables of creep forces: made, judged, looked up')
         call say('  table [FILE.csv]       coefficient tables of the integrals: made, audited')

@@ -116,7 +116,7 @@ class Profiles(ProgramTest):
                             for line in done.stdout.splitlines()))
         self.assertEqual(len(done.stderr.splitlines()), 1)
 
-    def test_curation_is_done_as_asked_and_told(self):
+    def test_cleaning_is_done_as_asked_and_told(self):
         self.write("w.txt", wheel_text(scale=0.001))
         done, rows = self.rows("w.txt", "--kind", "wheel")
         self.assertIn("--unit", rows[0]["message"])

@@ -34,7 +34,7 @@ module faststrip_command_profile_measures
         logical :: has_wear = .false.              !! was there a nominal profile?
         logical, allocatable :: is_kink(:)         !! at the points
         real(wp), allocatable :: curvature(:)      !! at the touchable points, 1/mm
-        type(status_t) :: status                   !! of reading or curating it
+        type(status_t) :: status                   !! of reading or cleaning it
     end type measures_t
 
 contains

@@ -1,4 +1,4 @@
-!> `faststrip profile`: reads profiles of every format, describes, curates, draws and converts them.
+!> `faststrip profile`: reads profiles of every format, describes, cleans, draws and converts them.
 module faststrip_command_profile
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
@@ -10,7 +10,7 @@ module faststrip_command_profile
     use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
                                           profile_at
     use faststrip_geometry_arc_spline, only: standard_kink_angle
-    use faststrip_geometry_curation, only: resample
+    use faststrip_geometry_cleaning, only: resample
     use faststrip_geometry_wear, only: wear_depths, align_by_field_side, measure_rail_wear
     use faststrip_command_program_console, only: fail, fail_on_error, note, usage_error, &
                                                  version_text, printable, exit_bad_input, &
@@ -20,9 +20,9 @@ module faststrip_command_profile
     use faststrip_command_settings_method_options, only: setting_options, read_option
     use faststrip_command_settings_profiles, only: put_reading
     use faststrip_command_settings_table, only: settings, value_t, of_group
-    use faststrip_files_profile_curation, only: curation_t
+    use faststrip_files_profile_cleaning, only: cleaning_t
     use faststrip_files_profile_taken, only: take_profile
-    use faststrip_command_profile_curation, only: curation_options, take_curation
+    use faststrip_command_profile_cleaning, only: cleaning_options, take_cleaning
     use faststrip_command_profile_measures, only: measures_t, measure_profile, &
                                                   put_measures_header, put_measures
     use faststrip_command_profile_picture, only: draw_profile, nominal_t
@@ -46,7 +46,7 @@ contains
     subroutine run_profile()
         type(command_t) :: command
         type(profile_options_t) :: options
-        type(curation_t) :: curation
+        type(cleaning_t) :: cleaning
         type(measures_t), allocatable :: measures(:)
         type(nominal_t) :: nominal
         character, parameter :: newline = new_line('a')
@@ -74,10 +74,10 @@ contains
             option_t('--nominal', 'NAME', 'wear against a standard profile or a file'), &
             option_t('--align', 'HOW', 'lay a rail on the nominal one: field (default), none'), &
             option_t('--kind', 'KIND', 'wheel or rail, where the file does not say'), &
-            setting_options('wheel'), curation_options]
+            setting_options('wheel'), cleaning_options]
         call parse_command(command, 1, most_files)
         call take_reading(command, options)
-        call take_curation(command, curation)
+        call take_cleaning(command, cleaning)
         n = size(command%arguments)
         if (n > 1 .and. given(command, '-o')) &
             call usage_error('-o takes one profile, got ' // integer_text(n), command%name)
@@ -86,7 +86,7 @@ contains
         allocate (measures(n))
         n_failed = 0
         do i = 1, n
-            call describe(command%arguments(i)%text, options, curation, measures(i))
+            call describe(command%arguments(i)%text, options, cleaning, measures(i))
             if (given(command, '--nominal') .and. .not. is_error(measures(i)%status)) &
                 call compare(command, measures(i), nominal)
             if (is_error(measures(i)%status)) then
@@ -129,15 +129,15 @@ contains
     end subroutine take_reading
 
     !> Take one file and measure it.
-    subroutine describe(path, options, curation, measures)
+    subroutine describe(path, options, cleaning, measures)
         character(len=*), intent(in) :: path
         type(profile_options_t), intent(in) :: options
-        type(curation_t), intent(in) :: curation
+        type(cleaning_t), intent(in) :: cleaning
         type(measures_t), intent(out) :: measures
 
         measures%path = path
-        call take_profile(path, options, curation, measures%taken_profile_t, measures%status)
-        if (.not. is_error(measures%status)) call measure_profile(curation%kink_angle, measures)
+        call take_profile(path, options, cleaning, measures%taken_profile_t, measures%status)
+        if (.not. is_error(measures%status)) call measure_profile(cleaning%kink_angle, measures)
     end subroutine describe
 
     !> Wear against a nominal profile.

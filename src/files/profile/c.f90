@@ -10,7 +10,7 @@ module faststrip_files_profile_c
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_files_printable, only: printable
     use faststrip_files_profile, only: profile_options_t
-    use faststrip_files_profile_curation, only: curation_t
+    use faststrip_files_profile_cleaning, only: cleaning_t
     use faststrip_files_profile_taken, only: taken_profile_t, take_profile
     implicit none
     private
@@ -80,7 +80,7 @@ contains
         if (.not. is_error(status)) call check_arrays()
         if (.not. is_error(status)) then
             call hold_environment(environment)
-            call take_profile(name, options_of(fields), curation_of(fields), taken, status)
+            call take_profile(name, options_of(fields), cleaning_of(fields), taken, status)
             call restore_environment(environment)
             if (.not. is_error(status)) then
                 words = printable(taken%words)
@@ -131,13 +131,13 @@ contains
     end function faststrip_read_profile
 
     pure type(c_reading_t) function default_reading() result(reading)
-        type(curation_t) :: curation
+        type(cleaning_t) :: cleaning
 
         reading = c_reading_t(size=reading_size, kind=0, section=0, side=1, y_sense=0, z_sense=0, &
                               any_count=0, ignore_smoothing=0, has_tape_circle=0, keeps=0, &
                               drops_folds=0, mirrors=0, rounds_kinks=0, unit=0.0_c_double, &
                               tape_circle=0.0_c_double, keep=0.0_c_double, &
-                              double=curation%double, shift=0.0_c_double, turn=0.0_c_double, &
+                              double=cleaning%double, shift=0.0_c_double, turn=0.0_c_double, &
                               wavelength=0.0_c_double, noise=0.0_c_double, step=0.0_c_double, &
                               kink_angle=standard_kink_angle)
     end function default_reading
@@ -151,14 +151,14 @@ contains
                                     fields%tape_circle)
     end function options_of
 
-    pure type(curation_t) function curation_of(fields) result(curation)
+    pure type(cleaning_t) function cleaning_of(fields) result(cleaning)
         type(c_reading_t), intent(in) :: fields
 
-        curation = curation_t(fields%keeps /= 0, fields%keep, fields%double, &
+        cleaning = cleaning_t(fields%keeps /= 0, fields%keep, fields%double, &
                               fields%drops_folds /= 0, fields%mirrors /= 0, fields%shift, &
                               fields%turn, fields%wavelength, fields%noise, fields%step, &
                               fields%kink_angle, fields%rounds_kinks /= 0)
-    end function curation_of
+    end function cleaning_of
 
     ! How a file is to be read, if the caller says it.
     subroutine find_reading(address, fields, status)

@@ -16,7 +16,7 @@ module faststrip_files_profile_f77
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_files_printable, only: printable
     use faststrip_files_profile, only: profile_options_t
-    use faststrip_files_profile_curation, only: curation_t
+    use faststrip_files_profile_cleaning, only: cleaning_t
     use faststrip_files_profile_taken, only: taken_profile_t, take_profile
     implicit none
     private
@@ -52,7 +52,7 @@ contains
         end do
         n = 0
         call hold_environment(environment)
-        call take_profile(trim(name), profile_options_t(kind=kind), curation_t(), taken, status)
+        call take_profile(trim(name), profile_options_t(kind=kind), cleaning_t(), taken, status)
         call restore_environment(environment)
         if (.not. is_error(status)) then
             n = size(taken%points%y)

@@ -1,4 +1,4 @@
-!> A profile as users take it from a file: read, curated as they ask, and judged: what can be
+!> A profile as users take it from a file: read, cleaned as they ask, and judged: what can be
 !> touched of it, the measures of its flange, and words for what was left out or done.
 module faststrip_files_profile_taken
     use faststrip_base_kinds, only: wp
@@ -7,7 +7,7 @@ module faststrip_files_profile_taken
     use faststrip_geometry_profile, only: profile_t, make_curve_profile
     use faststrip_geometry_touchable, only: touchable_t, touchable_words, body_wheel, body_rail
     use faststrip_files_profile, only: read_profile, profile_file_t, profile_options_t
-    use faststrip_files_profile_curation, only: curation_t, check_curation, curate
+    use faststrip_files_profile_cleaning, only: cleaning_t, check_cleaning, clean
     implicit none
     private
 
@@ -15,42 +15,42 @@ module faststrip_files_profile_taken
 
     !> A profile, and what is known of it.
     type :: taken_profile_t
-        type(profile_file_t) :: points         !! as read and curated
+        type(profile_file_t) :: points         !! as read and cleaned
         type(profile_t) :: profile             !! what can be touched, where the kind is known
         type(touchable_t) :: part              !! the same
         type(flange_t) :: flange               !! of a wheel
-        character(len=:), allocatable :: done  !! by curation; empty: nothing
+        character(len=:), allocatable :: done  !! by cleaning; empty: nothing
         character(len=:), allocatable :: words !! what was noticed or done; empty: nothing
     end type taken_profile_t
 
 contains
 
     !> Take a profile from a file.
-    subroutine take_profile(path, options, curation, taken, status)
+    subroutine take_profile(path, options, cleaning, taken, status)
         character(len=*), intent(in) :: path           !! name of the file
         type(profile_options_t), intent(in) :: options !! what the user says about it
-        type(curation_t), intent(in) :: curation       !! what is to be done
+        type(cleaning_t), intent(in) :: cleaning       !! what is to be done
         type(taken_profile_t), intent(out) :: taken    !! the profile
-        type(status_t), intent(out) :: status          !! those of `read_profile`, `curate`,
+        type(status_t), intent(out) :: status          !! those of `read_profile`, `clean`,
                                                        !! `make_curve_profile`, with the file
 
         taken%words = ''
         taken%done = ''
         allocate (taken%part%point(0))
-        call check_curation(curation, status)
+        call check_cleaning(cleaning, status)
         if (is_error(status)) return
         call read_profile(path, options, taken%points, status)
         if (is_error(status)) return
-        call curate(curation, taken%points, taken%done, status)
-        if (.not. is_error(status)) call judge(curation, taken, status)
+        call clean(cleaning, taken%points, taken%done, status)
+        if (.not. is_error(status)) call judge(cleaning, taken, status)
         if (is_error(status)) status%message = trim(status%message) // ' (' // path // ')'
         if (len(taken%done) == 0) return
         if (len(taken%words) > 0) taken%words = '; ' // taken%words
         taken%words = taken%done // taken%words
     end subroutine take_profile
 
-    subroutine judge(curation, taken, status)
-        type(curation_t), intent(in) :: curation
+    subroutine judge(cleaning, taken, status)
+        type(cleaning_t), intent(in) :: cleaning
         type(taken_profile_t), intent(inout) :: taken
         type(status_t), intent(inout) :: status
 
@@ -60,7 +60,7 @@ contains
             if (kind == body_wheel) &
                 call measure_flange(y, z, taken%points%flange_back, taken%flange)
             if (kind == body_wheel .or. kind == body_rail) &
-                call make_curve_profile(y, z, kind, 0.0_wp, curation%kink_angle, taken%profile, &
+                call make_curve_profile(y, z, kind, 0.0_wp, cleaning%kink_angle, taken%profile, &
                                         taken%part, status)
         end associate
         if (is_error(status)) return

@@ -1,5 +1,5 @@
 !> Changes to the points of a profile, each for who asks for it; every one says what it did.
-module faststrip_geometry_curation
+module faststrip_geometry_cleaning
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
@@ -174,4 +174,4 @@ contains
         new_y(n_new) = y(n)
         new_z(n_new) = z(n)
     end subroutine resample_stretch
-end module faststrip_geometry_curation
+end module faststrip_geometry_cleaning

@@ -1,20 +1,20 @@
 !> The options of `faststrip profile` that say what is done to points.
-module faststrip_command_profile_curation
+module faststrip_command_profile_cleaning
     use faststrip_base_kinds, only: wp, pi
     use faststrip_geometry_arc_spline, only: standard_kink_angle
-    use faststrip_files_profile_curation, only: curation_t
+    use faststrip_files_profile_cleaning, only: cleaning_t
     use faststrip_command_program_options, only: command_t, option_t, given, option_number, &
                                                  option_pair, refuse_value
     implicit none
     private
 
-    public :: curation_options, take_curation
+    public :: cleaning_options, take_cleaning
 
     ! Given: units.
     real(wp), parameter :: degree = pi/180.0_wp, mm_per_um = 1.0e-3_wp
 
     !> The options of the command line.
-    type(option_t), parameter :: curation_options(14) = [ &
+    type(option_t), parameter :: cleaning_options(14) = [ &
         option_t('--keep', 'FROM,TO', 'keep the points in this range of y, mm'), &
         option_t('--drop-double', 'MM', 'drop points no farther from the one before (0: in one' // &
                  new_line('a') // 'place)'), &
@@ -36,33 +36,33 @@ module faststrip_command_profile_curation
 contains
 
     !> Read the options.
-    subroutine take_curation(command, curation)
+    subroutine take_cleaning(command, cleaning)
         type(command_t), intent(in) :: command      !! a parsed command
-        type(curation_t), intent(out) :: curation   !! what is to be done
+        type(cleaning_t), intent(out) :: cleaning   !! what is to be done
 
         if (given(command, '--keep')) then
-            call option_pair(command, '--keep', '', 'FROM,TO', curation%keep)
-            if (curation%keep(2) <= curation%keep(1)) &
+            call option_pair(command, '--keep', '', 'FROM,TO', cleaning%keep)
+            if (cleaning%keep(2) <= cleaning%keep(1)) &
                 call refuse_value(command, '--keep', 'FROM,TO, the second number larger')
-            curation%keeps = .true.
+            cleaning%keeps = .true.
         end if
         if (given(command, '--inclination') .and. given(command, '--cant')) &
             call refuse_value(command, '--cant', 'given without --inclination, which is its name')
-        curation%double = option_number(command, '--drop-double', -1.0_wp, least=0)
-        curation%folds = given(command, '--drop-folds')
-        curation%mirror = given(command, '--mirror')
-        curation%shift = [option_number(command, '--shift-y', 0.0_wp), &
+        cleaning%double = option_number(command, '--drop-double', -1.0_wp, least=0)
+        cleaning%folds = given(command, '--drop-folds')
+        cleaning%mirror = given(command, '--mirror')
+        cleaning%shift = [option_number(command, '--shift-y', 0.0_wp), &
                           option_number(command, '--shift-z', 0.0_wp)]
-        curation%turn = degree*option_number(command, '--rotate', 0.0_wp) &
+        cleaning%turn = degree*option_number(command, '--rotate', 0.0_wp) &
                         - atan(option_number(command, '--inclination', &
                                              option_number(command, '--cant', 0.0_wp)))
-        curation%wavelength = option_number(command, '--smooth-wavelength', 0.0_wp, above=0)
-        curation%noise = mm_per_um*option_number(command, '--smooth-noise', 0.0_wp, above=0)
-        if (curation%wavelength > 0.0_wp .and. curation%noise > 0.0_wp) &
+        cleaning%wavelength = option_number(command, '--smooth-wavelength', 0.0_wp, above=0)
+        cleaning%noise = mm_per_um*option_number(command, '--smooth-noise', 0.0_wp, above=0)
+        if (cleaning%wavelength > 0.0_wp .and. cleaning%noise > 0.0_wp) &
             call refuse_value(command, '--smooth-noise', 'given without --smooth-wavelength')
-        curation%step = option_number(command, '--resample', 0.0_wp, above=0)
-        curation%kink_angle = degree*option_number(command, '--kink-angle', &
+        cleaning%step = option_number(command, '--resample', 0.0_wp, above=0)
+        cleaning%kink_angle = degree*option_number(command, '--kink-angle', &
                                                    standard_kink_angle/degree, above=0)
-        curation%rounds = given(command, '--round-kinks')
-    end subroutine take_curation
-end module faststrip_command_profile_curation
+        cleaning%rounds = given(command, '--round-kinks')
+    end subroutine take_cleaning
+end module faststrip_command_profile_cleaning
