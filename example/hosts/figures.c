@@ -7,14 +7,15 @@
 enum { MOST = 20000, STEPS = 20, POINTS = 400 };
 
 static const struct { const char *name; int number; } methods[] = {
+    /* BEGIN methods */
     {"strip", FASTSTRIP_NORMAL_STRIP},
     {"hertz", FASTSTRIP_NORMAL_HERTZ},
     {"equal_area", FASTSTRIP_NORMAL_EQUAL_AREA},
     {"equal_moments", FASTSTRIP_NORMAL_EQUAL_MOMENTS},
-    {"kpec", FASTSTRIP_NORMAL_KPEC},
-    {"kpec_strips", FASTSTRIP_NORMAL_KPEC_STRIPS},
-    {"analyn", FASTSTRIP_NORMAL_ANALYN},
     {"auto", FASTSTRIP_NORMAL_AUTO},
+    {"kpec", FASTSTRIP_NORMAL_KPEC},
+    {"analyn", FASTSTRIP_NORMAL_ANALYN},
+    {"kpec_strips", FASTSTRIP_NORMAL_KPEC_STRIPS},
     {"none", FASTSTRIP_TANGENTIAL_NONE},
     {"faststrip", FASTSTRIP_TANGENTIAL_FASTSTRIP},
     {"fastsim", FASTSTRIP_TANGENTIAL_FASTSIM},
@@ -26,6 +27,7 @@ static const struct { const char *name; int number; } methods[] = {
     {"she", FASTSTRIP_TANGENTIAL_SHE},
     {"polach", FASTSTRIP_TANGENTIAL_POLACH},
     {"faststrip-plain", FASTSTRIP_TANGENTIAL_FASTSTRIP_PLAIN},
+    /* END methods */
 };
 
 static int contact;

@@ -1,5 +1,6 @@
 """What can be set: one table, whatever it is set by."""
 
+import re
 import subprocess
 import sys
 
@@ -32,7 +33,8 @@ def value_for(row):
     """A value that it may be, and not the one it is where nothing is said."""
     if row["name"] in VALUES:
         return VALUES[row["name"]]
-    return "11" if "whole" in row["may_be"] else "0.4"
+    whole = re.search(r"whole number from (\d+) to (\d+)", row["may_be"])
+    return str(min(11, int(whole[2]))) if whole else "11" if "whole" in row["may_be"] else "0.4"
 
 
 class Settings(ProgramTest):
@@ -170,7 +172,7 @@ class Settings(ProgramTest):
         for row in self.rows:
             words = row["may_be"]
             for bad, is_bad in (("-0.5", " 0" in words or "whole" in words or "or" in words),
-                                ("0", "above 0" in words or "whole" in words and "auto" not in
+                                ("0", "above 0" in words or "whole" in words and " or " not in
                                  words), ("0.5", "below 0.5" in words),
                                 ("1.5", "most 1" in words or "to 1" in words or "whole" in words),
                                 ("99999999", "to 1000" in words or "to 2000" in words),

@@ -5,10 +5,10 @@
 
 The list is that of src/faststrip/contact/methods.f90: one row a method. Written from it, between
 lines with `BEGIN methods` and `END methods`, are the numbers there, what `use faststrip` gives, the
-lists of example/hosts/tour.f90, the enumerations of the C header, the comment of the F77 interface,
-Python's dictionaries and the tables of docs/usage.md. The command line and its help, and so the man
-page, read the list itself. With --check nothing is written; the exit code is 1 if something would
-be.
+lists of example/hosts/tour.f90 and figures.c, the enumerations of the C header, the comment of the
+F77 interface, Python's dictionaries and the tables of docs/usage.md. The command line and its help,
+and so the man page, read the list itself. With --check nothing is written; the exit code is 1 if
+something would be.
 """
 
 import argparse
@@ -113,6 +113,12 @@ def tour(methods):
     return lines
 
 
+def pairs(methods):
+    """Names and constants of the methods of the core, in C."""
+    return [f'    {{"{m.name}", FASTSTRIP_{m.constant().upper()}}},'
+            for part in methods for m in in_order(methods[part])]
+
+
 def header(methods):
     lines = []
     for part in methods:
@@ -170,6 +176,7 @@ TARGETS = {
     LIST: numbers,
     "src/faststrip/faststrip.f90": umbrella,
     "example/hosts/tour.f90": tour,
+    "example/hosts/figures.c": pairs,
     "include/faststrip.h": header,
     "src/faststrip/interop/f77/f77.f90": comment,
     "python/faststrip/_contact.py": dictionaries,
