@@ -24,8 +24,8 @@ module faststrip_command_batch_gap_cache
     !> Most gaps that are kept, and most points of them all, 150 bytes each: 30 MB.
     !> Tuned [gaps, points]. Origin: chosen: a table of some profiles and shifts.
     integer, parameter :: most_gaps = 1024, most_points = 200000
-    ! Tuned [lists]: of names, by a number made from the name. Origin: twice the gaps that are kept.
-    integer, parameter :: n_lists = 2048
+    ! Lists of names, by a number made from the name.
+    integer, parameter :: n_lists = 2*most_gaps
 
     !> A file and its gap.
     type :: kept_t

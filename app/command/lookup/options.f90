@@ -8,6 +8,8 @@ module faststrip_command_lookup_options
                                                  option_number, option_pair, refuse_value, given
     use faststrip_command_program_system, only: use_one_thread_each
     use faststrip_files_csv, only: real_text
+    use faststrip_contact_methods, only: usual_rows
+    use faststrip_contact_wanted, only: usual_tolerance
     use faststrip_normal_strips, only: usual_strips
     use faststrip_tabulate_forces, only: choice_t, force_methods
     implicit none
@@ -26,11 +28,7 @@ module faststrip_command_lookup_options
         option_t('--threads', 'N', 'that solve contacts (default: all cores); the bits are the' &
                  // new_line('a') // 'same for any number')]
 
-    ! Tuned [strips, points]: of FASTSIM; the others as in a case file. Origin: as in a case file.
-    integer, parameter :: fastsim_side = 50
-    integer, parameter :: strips_of(4) = [usual_strips, fastsim_side, usual_strips, usual_strips]
-    ! Tuned [1]: tolerance of auto. Origin: as that of a contact.
-    real(wp), parameter :: usual_tolerance = 0.02_wp
+    integer, parameter :: strips_of(4) = [usual_strips, usual_rows, usual_strips, usual_strips]
     ! Tuned [threads]: the most. Origin: capacity.
     integer, parameter :: most_threads = 1024
     ! Tuned [strips, elements]: the most. Origin: capacity.

@@ -1,6 +1,7 @@
 !> `faststrip integral`: influence integrals of strips.
 module faststrip_command_table_integral
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: beyond_all
     use faststrip_base_status, only: status_t, clear_status, is_error, set_status, number_text, &
                                      st_bad_argument, st_out_of_range
     use faststrip_base_text, only: integer_text
@@ -21,10 +22,6 @@ module faststrip_command_table_integral
     private
 
     public :: run_integral
-
-    !> Tuned [1]: beyond this b and X off the centre line are refused. Origin: safeguard: products
-    !> would overflow.
-    real(wp), parameter :: largest = 1.0e100_wp
 
 contains
 
@@ -130,7 +127,7 @@ contains
             case ('closed')
                 if (x == 0.0_wp) then
                     value = strip_influence(n, b)
-                else if (max(b, abs(x)) > largest) then
+                else if (max(b, abs(x)) > beyond_all) then
                     call set_status(status, st_out_of_range, 'b and X must be at most 1e100, got ' &
                                     // trim(number_text(b)) // ', ' // number_text(x))
                 else

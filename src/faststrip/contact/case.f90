@@ -7,6 +7,7 @@ module faststrip_contact_case
     use faststrip_base_friction, only: friction_t
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_limitations, only: default_resolution
+    use faststrip_normal_strips, only: usual_strip_tolerance
     use faststrip_normal_types, only: demand_t
     use faststrip_tangential_wear_law, only: wear_law_t
     use faststrip_contact_methods, only: contact_methods_t
@@ -46,8 +47,8 @@ module faststrip_contact_case
         real(wp) :: yield = 0.0_wp
             !! `st_beyond_yield` names a maximum pressure above this, MPa; 0: no limit
         logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
-        ! Tuned [1]. Origin: as that of strip_options_t.
-        real(wp) :: strip_tolerance = 1.0e-6_wp !! relative size of the strips' last step
+        real(wp) :: strip_tolerance = usual_strip_tolerance
+            !! relative size of the strips' last step
         logical :: estimate = .true.       !! are errors estimated? Of strips it costs about a step
         real(wp) :: resolution_limit = default_resolution
             !! `st_under_resolved` names an estimated relative error above this, > 0

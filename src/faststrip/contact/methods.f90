@@ -13,7 +13,7 @@ module faststrip_contact_methods
     public :: normal_method_name, tangential_method_name, method_name_length
     public :: method_t, normal_table, tangential_table
     public :: gives_elements, gives_stick, takes_falling
-    public :: most_strips, most_rows
+    public :: most_strips, most_rows, usual_rows, usual_side
     public :: check_normal_method, check_tangential_method, check_resolutions
     public :: start_coarse, start_strips, start_last
 
@@ -147,6 +147,13 @@ module faststrip_contact_methods
     !> grows with their number.
     integer, parameter :: standard_max_elements = 1000000
 
+    !> Rows of FASTSIM where nobody says how many, and points along each.
+    !> Tuned [rows]. Origin: chosen.
+    integer, parameter :: usual_rows = 50
+    !> Sides of elements of norm and tang where nobody says how long.
+    !> Tuned [mm]. Origin: chosen: errors of some tenths of a percent on usual contacts.
+    real(wp), parameter :: usual_side = 0.2_wp
+
     !> What norm starts from: a coarser grid, which gives errors too; strips; the strips that are in
     !> the workspace.
     !> Given: numbers of kinds.
@@ -159,14 +166,10 @@ module faststrip_contact_methods
         integer :: strips_per_patch = usual_strips
             !! strips across the largest patch, or `strips_auto`
         integer :: points_per_strip = usual_strips !! points along a strip, faststrip...
-        ! Tuned [points]. Origin: chosen.
-        integer :: fastsim_nx = 50       !! points along a row, fastsim...
-        ! Tuned [rows]. Origin: as fastsim_nx.
-        integer :: fastsim_ny = 50       !! rows, fastsim...
-        ! Tuned [mm]. Origin: chosen: errors of some tenths of a percent on usual contacts.
-        real(wp) :: element_dx = 0.2_wp  !! side of an element along x, norm, tang, mm
-        ! Tuned [mm]. Origin: as element_dx.
-        real(wp) :: element_dy = 0.2_wp  !! side of an element along y, norm, tang, mm
+        integer :: fastsim_nx = usual_rows      !! points along a row, fastsim...
+        integer :: fastsim_ny = usual_rows      !! rows, fastsim...
+        real(wp) :: element_dx = usual_side     !! side of an element along x, norm, tang, mm
+        real(wp) :: element_dy = usual_side     !! side of an element along y, norm, tang, mm
         logical :: dx_is_given = .false. !! else it is shorter where the contact is small
         logical :: dy_is_given = .false. !! the same along y
         real(wp) :: error_target = 0.0_wp

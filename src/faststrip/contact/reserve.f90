@@ -5,6 +5,7 @@ module faststrip_contact_reserve
                                      st_bad_argument, st_workspace_too_small
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_normal_strip, only: strips_auto_most
+    use faststrip_normal_strip_patches, only: max_patches
     use faststrip_normal_strips, only: reserve_strips
     use faststrip_tangential_types, only: reserve_field
     use faststrip_contact_method, only: workspace_t, normal_method_t, tangential_method_t
@@ -18,8 +19,6 @@ module faststrip_contact_reserve
 
     public :: reserve_workspace, reserve_contact_field, most_gap_points
 
-    ! Tuned [patches]. Origin: as max_patches of the strips.
-    integer, parameter :: most_patches = 16 ! each with its own ellipse
     !> Most points of a gap.
     !> Tuned [points]. Origin: capacity.
     integer, parameter :: most_gap_points = 1000000
@@ -89,7 +88,7 @@ contains
         points = methods%points_per_strip
         if (methods%normal == normal_auto) points = max(points, strips_auto_most)
         elements = max(int(strip_capacity(methods), int64)*points, &
-                       int(methods%fastsim_nx, int64)*methods%fastsim_ny*most_patches)
+                       int(methods%fastsim_nx, int64)*methods%fastsim_ny*max_patches)
         if (elements < huge(points)) then
             call try_memory(per_element*elements, 'field', status)
         else

@@ -13,7 +13,7 @@ module faststrip_contact_wanted
     public :: wanted_t, others_t, check_wanted, needs_forces, target_number, target_names
     public :: others_across, others_time
     public :: auto_step_t, auto_steps_t, clear_steps
-    public :: margin, unknown_error, most_steps
+    public :: margin, unknown_error, most_steps, usual_tolerance
 
     ! Given: numbers of kinds, in the order of `target_names`; they stay for ever.
     integer, parameter, public :: target_forces = 1
@@ -28,6 +28,9 @@ module faststrip_contact_wanted
     !> Most steps of one contact.
     !> Tuned [steps]. Origin: safeguard: the estimate leads there in three; grids of others follow.
     integer, parameter :: most_steps = 11
+    !> Largest estimated error wanted where nobody says which.
+    !> Tuned [1]. Origin: chosen.
+    real(wp), parameter :: usual_tolerance = 0.02_wp
 
     !> Part of the tolerance that is aimed at.
     !> Tuned [1]. Origin: chosen for the time.
@@ -55,8 +58,8 @@ module faststrip_contact_wanted
     !> What is wanted.
     type :: wanted_t
         integer :: target = target_forces !! one of the `target_` numbers
-        ! Tuned [1]. Origin: chosen.
-        real(wp) :: tolerance = 0.02_wp   !! largest estimated error; 0: the least within the budget
+        real(wp) :: tolerance = usual_tolerance
+            !! largest estimated error; 0: the least within the budget
         real(wp) :: budget_us = 0.0_wp    !! time for it, us; 0: as long as it takes
         integer :: most_strips = strips_auto_most !! across the largest patch, 3 to 81
         type(others_t) :: others = others_t()

@@ -7,6 +7,7 @@
 module faststrip_geometry_arc_spline
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: most_halvings
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      count_text, st_out_of_range, st_too_few_points, &
                                      st_not_increasing, st_not_finite, st_bad_argument
@@ -35,9 +36,6 @@ module faststrip_geometry_arc_spline
     real(wp), parameter :: steepest = 3.0_wp
     ! Tuned [1]: The lower of them. Origin: safeguard: slopes stay finite.
     real(wp), parameter :: flattest = 1.0e-3_wp
-
-    ! Tuned [steps]: Most steps to a place. Origin: capacity; halvings of an interval to rounding.
-    integer, parameter :: most_steps = 60
 
     !> The points and the derivatives of both coordinates at both ends of each interval.
     type :: arc_spline_t
@@ -230,7 +228,7 @@ contains
         low = 0.0_wp
         high = h
         t = h*((y - curve%y(i))/(curve%y(i + 1) - curve%y(i)))
-        do k = 1, most_steps
+        do k = 1, most_halvings
             call cubic_value(curve%y(i:i + 1), [curve%y_from(i), curve%y_to(i)], h, t, value, d1, &
                              d2)
             if (value < y) then

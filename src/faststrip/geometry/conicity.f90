@@ -25,6 +25,7 @@
 module faststrip_geometry_conicity
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, clear_status, set_status, is_error, number_text, &
                                      count_text, st_bad_argument, st_not_finite, &
                                      st_not_increasing, st_no_wave, st_out_of_range, &
@@ -35,9 +36,6 @@ module faststrip_geometry_conicity
     public :: conicity_t, find_conicity, find_equilibrium, klingel_conicity, &
               regression_conicity, largest_amplitude
 
-    ! Bisections of a turning point or a middle at most.
-    ! Tuned [steps]. Origin: chosen; 60 reach the last digit, more only near y = 0.
-    integer, parameter :: most_steps = 120
     ! Amplitudes may pass the end of the table by this part, levels of S differ by it.
     ! Tuned [1]. Origin: chosen; rounding of sums over some hundred points.
     real(wp), parameter :: rounding = 1.0e-12_wp

@@ -19,7 +19,7 @@ module faststrip_geometry_curve_smoothing
     implicit none
     private
 
-    public :: smooth_by_wavelength, smooth_by_noise
+    public :: smooth_by_wavelength, smooth_by_noise, caution, bad_fit
 
     ! Given: third differences.
     integer, parameter :: band = 3
@@ -29,13 +29,15 @@ module faststrip_geometry_curve_smoothing
     ! A kink is held with this weight over that of its neighbours.
     ! Tuned [1]. Origin: chosen; it moves by nothing that is seen.
     real(wp), parameter :: held = 1.0e6_wp
-    ! Tuned [1]: Weight of the degrees of freedom. Origin: Kim and Gu (2004).
+    !> Weight of the degrees of freedom, of profiles and gaps.
+    !> Tuned [1]. Origin: Kim and Gu (2004).
     real(wp), parameter :: caution = 1.4_wp
     ! Tuned [1]: Wavelengths tried, each over the one before. Origin: chosen; the estimate is flat.
     real(wp), parameter :: finer = 1.25_wp
     ! Tuned [1]: First wavelength over the mean spacing. Origin: shorter ones are none.
     real(wp), parameter :: shortest = 2.0_wp
-    ! Tuned [1]: Largest misfit over the noise with the first wavelength. Origin: chosen; round.
+    !> Largest misfit over the noise where nearly nothing is smoothed.
+    !> Tuned [1]. Origin: chosen; round.
     real(wp), parameter :: bad_fit = 2.0_wp
 
 contains

@@ -2,6 +2,7 @@
 !> numbers of one thing: where one is said and the other is left alone, it has to follow.
 module faststrip_geometry_gauge_fit
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_halvings
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument
     use faststrip_geometry_profile, only: profile_t, profile_at
@@ -31,8 +32,6 @@ module faststrip_geometry_gauge_fit
     real(wp), parameter :: flank_depth = 10.0_wp
     ! Tuned [mm]: Steps along the flange. Origin: chosen; bisections follow.
     real(wp), parameter :: flank_step = 0.25_wp
-    ! Tuned [steps]: These. Origin: all digits of a step.
-    integer, parameter :: n_bisections = 50
 
 contains
 
@@ -146,7 +145,7 @@ contains
             high = low
         end do
         if (.not. is_flanged) return
-        do step = 1, n_bisections
+        do step = 1, most_halvings
             y_flank = 0.5_wp*(low + high)
             if (depth(y_flank) >= flank_depth) then
                 low = y_flank

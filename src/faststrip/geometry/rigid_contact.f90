@@ -8,6 +8,7 @@ module faststrip_geometry_rigid_contact
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_halvings
     use faststrip_geometry_gauge_fit, only: check_fit, check_tape_circles
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
@@ -18,7 +19,7 @@ module faststrip_geometry_rigid_contact
     public :: wheelset_t, track_t, rigid_contact_t
     public :: find_rigid_contact, find_rigid_contacts, contact_force, shift_creepage
     public :: find_gauge_point, place_rail, creepage_set_a, creepage_set_b, largest_length
-    public :: scan_step, n_bisections
+    public :: scan_step
 
     !> The wheelset; both wheels carry the same profile.
     type :: wheelset_t
@@ -64,9 +65,6 @@ module faststrip_geometry_rigid_contact
     !> Spacing of the scan for the smallest distance, mm.
     !> Tuned [mm]. Origin: well below the curvature of flange and rail corner.
     real(wp), parameter :: scan_step = 0.02_wp
-    !> Bisections that follow.
-    !> Tuned [steps]. Origin: all digits of the scan's interval.
-    integer, parameter :: n_bisections = 60
     ! Tuned [mm]: shifts beyond are refused. Origin: safeguard.
     real(wp), parameter :: largest_shift = 1.0e4_wp
     !> Lengths and coordinates beyond are refused, mm.
@@ -199,7 +197,7 @@ contains
 
         low = from
         high = to
-        do k = 1, n_bisections
+        do k = 1, most_halvings
             at = 0.5_wp*(low + high)
             call distance_and_slope(wheel, rail, offset, at, value, slope)
             if (slope < 0.0_wp) then
@@ -341,7 +339,7 @@ contains
         ! The crown itself, where the slope changes sign next to the highest sample.
         low = rail%y_first + real(max(i_top - 1, 0), wp)*step
         high = min(rail%y_first + real(i_top + 1, wp)*step, rail%y_last)
-        do i = 1, n_bisections
+        do i = 1, most_halvings
             y = 0.5_wp*(low + high)
             call profile_at(rail, y, z, dz, d2z, status)
             top = min(top, z)
@@ -371,7 +369,7 @@ contains
         end if
         low = rail%y_first + real(i, wp)*step
         high = min(low + step, rail%y_last)
-        do i = 1, n_bisections
+        do i = 1, most_halvings
             y_gauge = 0.5_wp*(low + high)
             call profile_at(rail, y_gauge, z, dz, d2z, status)
             if (z - top >= depth) then

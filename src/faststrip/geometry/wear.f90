@@ -5,6 +5,7 @@
 !> aligned by its field side, where wheels touch least: the outer four tenths of that half.
 module faststrip_geometry_wear
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, &
                                      st_out_of_range, st_no_convergence
     use faststrip_numerics_lu, only: lu_factor, lu_solve
@@ -16,8 +17,6 @@ module faststrip_geometry_wear
     ! Wear is looked for as far as this on both sides of the nominal curve.
     ! Tuned [mm]. Origin: rails and flanges are taken out of use earlier.
     real(wp), parameter :: farthest = 20.0_wp
-    ! Tuned [steps]: Gauss-Newton steps of the alignment at most. Origin: chosen; ten are taken.
-    integer, parameter :: most_steps = 40
     ! Tuned [mm]: steps that end it. Origin: chosen; well below any wear.
     real(wp), parameter :: settled = 1.0e-9_wp
     ! Where the field side begins, from the middle of the head, over its half width.

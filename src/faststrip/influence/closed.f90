@@ -18,6 +18,7 @@ module faststrip_influence_closed
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, &
                                              ieee_positive_inf
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: beyond_all
     use faststrip_influence_closed_coefficients, only: a_small, b_small, r_large, r_centre, &
                                                        a_short, b_short, r_short, short_last
     use faststrip_numerics_elliptic, only: complete_elliptic_d
@@ -121,9 +122,6 @@ contains
         integer, intent(in) :: n  !! distance of the strips in strips, its sign ignored
         real(wp), intent(in) :: b !! half-width over half-length of the strip with the pressure, > 0
 
-        ! Tuned [half-lengths]: Wider strips are infinitely wide. Origin: safeguard: squares cannot
-        ! overflow.
-        real(wp), parameter :: b_huge = 1.0e150_wp
         real(wp) :: distance, cl, cr, t, wl, wr, xl, xr, p, q(2), r(2)
 
         if (.not. ieee_is_finite(b)) then
@@ -142,7 +140,7 @@ contains
         else
             t = polynomial(distance_series, 1.0_wp/distance**2)
         end if
-        if (b > b_huge) then
+        if (b > beyond_all) then
             value = pi*t/distance
             return
         end if
@@ -184,15 +182,12 @@ contains
         integer, intent(in) :: n  !! distance of the strips in strips, its sign ignored
         real(wp), intent(in) :: b !! half-width over half-length of the strip with the pressure, > 0
 
-        ! Tuned [half-lengths]: Wider strips are infinitely wide. Origin: safeguard: squares cannot
-        ! overflow.
-        real(wp), parameter :: b_huge = 1.0e100_wp
         real(wp) :: distance, cl, cr
 
         slope = 0.0_wp
         if (.not. ieee_is_finite(b)) then
             slope = ieee_value(slope, ieee_quiet_nan)
-        else if (b <= 0.0_wp .or. (n /= 0 .and. b > b_huge)) then
+        else if (b <= 0.0_wp .or. (n /= 0 .and. b > beyond_all)) then
             return
         else if (n == 0) then
             slope = 2.0_wp*influence_primitive_slope(b)

@@ -2,6 +2,7 @@
 module faststrip_influence_plain_sizes
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: beyond_all
     implicit none
     private
 
@@ -9,11 +10,9 @@ module faststrip_influence_plain_sizes
 
     !> Lengths in mm between which columns divide without a second thought. Contacts
     !> have 1e-3 to 1e3; what lies outside goes to the scalar procedures, at their cost.
-    !> Tuned [mm]. Origin: safeguard: squares cannot underflow.
-    real(wp), parameter :: least_size = 1.0e-100_wp
+    real(wp), parameter :: least_size = 1.0_wp/beyond_all
     !> The same, above.
-    !> Tuned [mm]. Origin: safeguard: squares cannot overflow.
-    real(wp), parameter :: largest_size = 1.0e100_wp
+    real(wp), parameter :: largest_size = beyond_all
 
 contains
 

@@ -8,11 +8,14 @@ module faststrip_normal_strips
     private
 
     public :: contact_strips_t, reserve_strips, copy_strips, mirror_strips, strip_load, strips_load
-    public :: starts_patch, first_of_patch, last_of_patch, usual_strips
+    public :: starts_patch, first_of_patch, last_of_patch, usual_strips, usual_strip_tolerance
 
     !> Strips across a patch where nobody says how many, and points along each.
     !> Tuned [strips]. Origin: chosen: errors against CONTACT below 2 %.
     integer, parameter :: usual_strips = 15
+    !> Relative size of Newton's last step where nobody says which.
+    !> Tuned [1]. Origin: far below the errors of any number of strips.
+    real(wp), parameter :: usual_strip_tolerance = 1.0e-6_wp
 
     !> Contact patches cut into strips along the rolling direction x, each with the pressure
     !> `p(x) = p0 sqrt(1 - (x/xd)^2)` (eq. (1)). Strips are ordered by y, patches too; the first

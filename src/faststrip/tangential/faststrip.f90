@@ -72,6 +72,7 @@
 !> fitted to them; the errors there stand in docs/validation.md.
 module faststrip_tangential_faststrip
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: nothing
     use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_out_of_range, &
                                      st_workspace_too_small
     use faststrip_base_material, only: material_t, check_material, combined_poisson_ratio
@@ -87,9 +88,10 @@ module faststrip_tangential_faststrip
     use faststrip_tangential_force_network, only: rolling_state_t
     use faststrip_tangential_patch_coupling, only: coupling_t, tractions_t, find_coupling, &
                                                    induced_motion, induced_moment, &
-                                                   sum_tractions, approach, most_parts
+                                                   sum_tractions, approach, most_parts, &
+                                                   coupling_passes
     use faststrip_tangential_patch_law, only: patch_law_t, find_law, add_law, mean_law, same_law, &
-                                              lateral_stiffness, smallest_force
+                                              lateral_stiffness
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
     use faststrip_tangential_strip_march, only: rolling_t, march_sums_t, march_strips
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
@@ -101,9 +103,6 @@ module faststrip_tangential_faststrip
 
     !> Points along each strip by default: as many as strips.
     integer, parameter :: default_points = usual_strips
-    ! Tuned [1]: Times that forces of several patches are found before those that count. Origin:
-    ! measured: one less errs by half as much again, one more changes next to nothing.
-    integer, parameter :: coupling_passes = 2
 
     ! Strips of a patch with a neck up to which nothing is allocated.
     ! Tuned [strips]. Origin: capacity: a quarter of the stack of a call.
@@ -399,7 +398,7 @@ contains
             load = load + load_of(strips, k)
         end do
         bound = rolling%mu_in_slip*load
-        if (bound <= smallest_force) return
+        if (bound <= nothing) return
         limit = bound
         associate (result => sums%result)
             force = [result%fx - before%result%fx, result%fy - before%result%fy]

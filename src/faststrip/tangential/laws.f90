@@ -43,6 +43,7 @@
 !> without a meaning, for the others.
 module faststrip_tangential_laws
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: nothing
     use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
                                        combined_poisson_ratio
@@ -64,9 +65,6 @@ module faststrip_tangential_laws
     integer, parameter :: law_shen_hedrick_elkins = 2 !! cubic saturation
     integer, parameter :: law_polach = 3              !! Polach's, with his spin
 
-    ! A patch that can carry less than this, N, carries nothing.
-    ! Tuned [N]. Origin: safeguard.
-    real(wp), parameter :: smallest_force = 1.0e-60_wp
     ! Tuned [1]: larger proportions of an ellipse count as this. Origin: safeguard: the exponential
     ! is below rounding.
     real(wp), parameter :: largest_ratio = 100.0_wp
@@ -154,13 +152,13 @@ contains
         type(kalker_coefficients_t) :: c
         real(wp) :: g, ab, cksi, force, fx, fy, mz
 
-        if (ellipse%load <= smallest_force) return
+        if (ellipse%load <= nothing) return
         call kalker_coefficients(ellipse%a/ellipse%b, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
         g = combined_shear_modulus(material)
         ab = ellipse%a*ellipse%b
         force = mu*ellipse%load
-        if (force <= smallest_force .and. law /= law_linear) return
+        if (force <= nothing .and. law /= law_linear) return
         ! Motion at the middle of the ellipse.
         cksi = creepage%cksi - ellipse%y*creepage%cphi
         fx = -c%c11*g*ab*cksi

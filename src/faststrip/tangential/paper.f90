@@ -32,13 +32,13 @@
 !> Slip is what scaling back leaves over of the elastic step, as in FASTSIM.
 module faststrip_tangential_paper
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: nothing
     use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_bad_argument, &
                                      st_out_of_range
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_normal_simple_patch_ellipse, only: patch_end, check_strips, most_slender, &
-                                                     least_carried
+    use faststrip_normal_simple_patch_ellipse, only: patch_end, check_strips, most_slender
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion
@@ -257,7 +257,7 @@ contains
             area = area + 2.0_wp*strips%half_length(i)*width
             load = load + strip_load(strips%p0(i), strips%half_length(i), width)
         end do
-        if (area <= least_carried .or. mu*load <= least_carried) return
+        if (area <= nothing .or. mu*load <= nothing) return
         patch%carries = .true.
         total%b = 0.5_wp*(strips%y_right(last) - strips%y_left(first))       ! (26)
         total%a = area/(pi*total%b)                                          ! (27)
@@ -298,7 +298,7 @@ contains
         width = strips%y_right(i) - strips%y_left(i)
         t0 = patch%mu*patch%largest_p0
         if (reading%bound_of_strip) t0 = patch%mu*strips%p0(i)               ! (34)
-        if (t0*strips%half_length(i)*width <= least_carried) return
+        if (t0*strips%half_length(i)*width <= nothing) return
         ye = y/total%b                                                       ! (32)
         if (.not. reading%from_reference) ye = (y - patch%y0)/total%b
         factor = patch%shear_modulus/t0                                      ! (35)

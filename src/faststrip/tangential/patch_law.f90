@@ -2,6 +2,7 @@
 !> of the arms. The steps S1 to S6 and S9 are those of `faststrip_tangential_faststrip`.
 module faststrip_tangential_patch_law
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: nothing
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
@@ -11,8 +12,7 @@ module faststrip_tangential_patch_law
     implicit none
     private
 
-    public :: patch_law_t, find_law, add_law, mean_law, same_law, lateral_stiffness, &
-              smallest_force
+    public :: patch_law_t, find_law, add_law, mean_law, same_law, lateral_stiffness
 
     ! Tuned [1]. Origin: errors against CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: gamma_length = 0.375_wp  ! S1; roots of roots
@@ -51,10 +51,6 @@ module faststrip_tangential_patch_law
     ! Given: an integral by the gamma function.
     real(wp), parameter :: j1 = 0.5_wp*root_pi*gamma(e1 + 1.0_wp)/gamma(e1 + 2.5_wp)
 
-    !> A patch or a strip that can carry less than this, N, carries nothing.
-    ! Tuned [N]. Origin: safeguard.
-    real(wp), parameter :: smallest_force = 1.0e-60_wp
-
     !> What the strips of one patch, or of one sub-patch, share.
     type :: patch_law_t
         real(wp) :: a = 0.0_wp   !! semi-axis of the virtual ellipse along x, mm
@@ -92,7 +88,7 @@ contains
 
         if (present(linear)) linear = 0.0_wp
         force = mu*ellipse%load
-        if (force <= smallest_force) return
+        if (force <= nothing) return
         call kalker_coefficients(ellipse%a/ellipse%b, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
         g = combined_shear_modulus(material)

@@ -3,10 +3,11 @@
 !> of `faststrip_tangential_faststrip`.
 module faststrip_tangential_strip_march
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: nothing
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, falls, falling_share
     use faststrip_normal_strips, only: contact_strips_t, strip_load
-    use faststrip_tangential_patch_law, only: patch_law_t, smallest_force
+    use faststrip_tangential_patch_law, only: patch_law_t
     use faststrip_tangential_saturation, only: saturate
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           put_element, most_points, state_adhesion, state_slip
@@ -315,7 +316,7 @@ contains
         do i = first, last
             associate (p0 => strips%p0(i), xd => strips%half_length(i), &
                        width => strips%y_right(i) - strips%y_left(i))
-                if (rolling%mu*strip_load(p0, xd, width) <= smallest_force) cycle
+                if (rolling%mu*strip_load(p0, xd, width) <= nothing) cycle
                 k = block%n + 1
                 block%n = k
                 block%strip(k) = i

@@ -5,16 +5,17 @@
 !> bounds. Near the end the force is the solver's to some ten digits only: there the slope is kept.
 module faststrip_wheelset_approach
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     implicit none
     private
 
     public :: approach_search_t, start_search, take_force, is_found, is_near, usual_approach
-    public :: largest_jump
+    public :: largest_jump, near_enough, most_growth
 
     ! Tuned [1]: equilibrium, of the load. Origin: above the digits of a contact's solution.
     real(wp), parameter :: exact = 7.0e-11_wp
-    ! Tuned [1]: a force as near as this to its load is found, where no step comes nearer. Origin:
-    ! chosen: some digits of a contact's solution.
+    !> A force as near as this to its load is found, where no step comes nearer.
+    !> Tuned [1]. Origin: chosen: some digits of a contact's solution.
     real(wp), parameter :: near_enough = 1.0e-8_wp
     ! Tuned [1]: a bracket that is closed, of its upper end: there the force jumps. Origin: chosen:
     ! the force of a smooth contact changes by less than near_enough within it.
@@ -25,14 +26,13 @@ module faststrip_wheelset_approach
     ! Tuned [1]: change of the force, of the load, that still tells its slope. Origin: as
     ! near_enough.
     real(wp), parameter :: telling = 1.0e-6_wp
-    ! Tuned [steps]: of a search. Origin: capacity; five are usual.
-    integer, parameter :: most_steps = 60
     ! Tuned [N/mm**1.5]: force over the approach to 3/2, for a first guess. Origin: a steel wheel of
     ! 460 mm on a rail of 300 mm.
     real(wp), parameter :: usual_stiffness = 2.0e6_wp
     ! Given: Hertz' law of a point contact.
     real(wp), parameter :: hertz_power = 1.5_wp
-    ! Tuned [1]: most by which an approach grows or shrinks in a step. Origin: safeguard.
+    !> Most by which an approach grows or shrinks in a step.
+    !> Tuned [1]. Origin: safeguard.
     real(wp), parameter :: most_growth = 4.0_wp
 
     !> A search, and the approach that it wants to know the force of.

@@ -1,11 +1,12 @@
 !> Height and roll at which both wheels carry the axle load together, and the moment of the frame.
 module faststrip_wheelset_balance
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_convergence, st_target_missed
     use faststrip_geometry_overlap, only: lowest_height
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
-    use faststrip_wheelset_approach, only: usual_approach, largest_jump
+    use faststrip_wheelset_approach, only: usual_approach, largest_jump, near_enough, most_growth
     use faststrip_wheelset_height, only: set_outline, try_height
     use faststrip_wheelset_loads, only: start_afresh
     use faststrip_wheelset_roll, only: roll_search_t, next_roll, most_roll_step
@@ -20,15 +21,8 @@ module faststrip_wheelset_balance
     ! Tuned [1]: equilibrium of two wheels, of the load. Origin: above the digits of a contact's
     ! solution.
     real(wp), parameter :: exact = 9.0e-11_wp
-    ! Tuned [steps]: to the balance. Origin: capacity; five are usual.
-    integer, parameter :: most_steps = 80
     ! Given: Hertz' law of a point contact.
     real(wp), parameter :: hertz_power = 1.5_wp
-    ! Tuned [1]: most by which an approach grows or shrinks in a step. Origin: safeguard.
-    real(wp), parameter :: most_growth = 4.0_wp
-    ! Tuned [1]: where no step gains any more, this part of the load may be missing. Origin: chosen:
-    ! some digits of a contact's solution.
-    real(wp), parameter :: near_enough = 1.0e-8_wp
     ! Tuned [1]: slopes are measured anew where more than this is left of what was missing. Origin:
     ! chosen: Broyden's method gains a digit in a step.
     real(wp), parameter :: least_progress = 0.5_wp

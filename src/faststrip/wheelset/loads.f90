@@ -2,6 +2,7 @@
 !> the same.
 module faststrip_wheelset_loads
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_convergence, st_target_missed
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
@@ -23,8 +24,6 @@ module faststrip_wheelset_loads
     ! Tuned [mm]: the same where the force of a wheel jumps over its load. Origin: chosen: a
     ! hundredth of a usual approach; the height at a jump hangs on how it was reached.
     real(wp), parameter :: exact_at_jump = 1.0e-3_wp
-    ! Tuned [steps]: of the roll. Origin: capacity; five are usual.
-    integer, parameter :: most_steps = 80
 
 contains
 

@@ -6,6 +6,7 @@
 !> touching, that other wheel would lift.
 module faststrip_wheelset_share
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_convergence, st_target_missed
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
@@ -24,8 +25,6 @@ module faststrip_wheelset_share
     real(wp), parameter :: near_a_jump = 1.0e-3_wp
     ! Tuned [1]: a bracket of the share that is closed. Origin: chosen: below near_enough.
     real(wp), parameter :: least_bracket = 1.0e-7_wp
-    ! Tuned [steps]: to the share. Origin: capacity; four are usual.
-    integer, parameter :: most_steps = 40
     ! Tuned [steps]: then halves. Origin: chosen: a moment that jumps is no straight line.
     integer, parameter :: most_secants = 8
 

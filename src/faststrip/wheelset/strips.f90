@@ -6,6 +6,7 @@
 !> place is that of the gap's point it came from.
 module faststrip_wheelset_strips
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_bad_argument
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap
@@ -23,8 +24,6 @@ module faststrip_wheelset_strips
 
     public :: wheel_strips_t, reserve_wheel_strips, find_wheel_strips
 
-    ! Tuned [steps]: to a point of the rail. Origin: capacity; Newton's method takes three.
-    integer, parameter :: most_steps = 30
     ! Tuned [mm]: how near to it. Origin: safeguard: above rounding.
     real(wp), parameter :: exact = 1.0e-12_wp
 

@@ -7,6 +7,7 @@ module faststrip_kalker_normal_options
                                      st_out_of_range
     use faststrip_base_material, only: check_compliance
     use faststrip_normal_types, only: demand_t
+    use faststrip_contact_methods, only: usual_side
     implicit none
     private
 
@@ -26,10 +27,8 @@ module faststrip_kalker_normal_options
 
     !> What the user chooses.
     type :: norm_options_t
-        ! Tuned [mm]. Origin: chosen for the S1002/UIC60 contacts.
-        real(wp) :: dx = 0.2_wp           !! side of the elements along x, mm
-        ! Tuned [mm]. Origin: as dx.
-        real(wp) :: dy = 0.2_wp           !! side of the elements along y, mm
+        real(wp) :: dx = usual_side       !! side of the elements along x, mm
+        real(wp) :: dy = usual_side       !! side of the elements along y, mm
         logical :: fits_dx = .false.      !! is it shorter where the contact is small?
         logical :: fits_dy = .false.      !! see `fitting_side`
         real(wp) :: error_target = 0.0_wp !! estimated relative error of penetration and largest

@@ -8,6 +8,7 @@
 !> wheel's profile and alpha_t of its outline.
 module faststrip_geometry_contact_frame
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, st_no_contact
     use faststrip_geometry_overlap, only: region_t
     use faststrip_geometry_profile, only: profile_at
@@ -23,8 +24,6 @@ module faststrip_geometry_contact_frame
     ! Least advance of y' over that of y that still counts as a function of y'.
     ! Tuned [1]. Origin: safeguard: steeper than 89.4 degrees.
     real(wp), parameter :: least_along = 1.0e-2_wp
-    ! Tuned [steps]: to a point of the rail. Origin: capacity; Newton's method takes three.
-    integer, parameter :: most_steps = 30
     ! Tuned [mm]: how near to it. Origin: safeguard: above rounding.
     real(wp), parameter :: exact = 1.0e-12_wp
     ! Points beside each other in y' that are nearer than this part of the outline's step are one.

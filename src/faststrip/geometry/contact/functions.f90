@@ -6,11 +6,12 @@
 !> the middle of its axle, positive where the right wheel goes down; the shift is the middle's.
 module faststrip_geometry_contact_functions
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_halvings, most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_contact, st_no_convergence
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
-                                                find_rigid_contact, scan_step, n_bisections
+                                                find_rigid_contact, scan_step
     implicit none
     private
 
@@ -33,8 +34,6 @@ module faststrip_geometry_contact_functions
         type(rigid_contact_t) :: left  !! where the left one does, in its mirrored frame
     end type contact_functions_t
 
-    ! Tuned [steps]: Most steps to the roll. Origin: chosen; most shifts take five.
-    integer, parameter :: most_steps = 100
     ! Tuned [mm]: How far the axle may differ between the sides. Origin: rounding of radii.
     real(wp), parameter :: height_tolerance = 1.0e-10_wp
     ! Tuned [mm]: A smaller difference of radii is none. Origin: their rounding on one cone.
@@ -233,7 +232,7 @@ contains
 
             first = from
             last = to
-            do k = 1, n_bisections
+            do k = 1, most_halvings
                 at = 0.5_wp*(first + last)
                 call distance_and_slope(at, value, slope_there)
                 if (slope_there < 0.0_wp) then

@@ -14,6 +14,7 @@
 !> and its curve is made from the other's: so the two curves agree to the last digit.
 module faststrip_geometry_gap_curve
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_halvings
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_workspace_too_small, st_bad_argument
     use faststrip_numerics_reversal, only: reverse, reverse_negated, reverse_exchanged
@@ -41,8 +42,6 @@ module faststrip_geometry_gap_curve
     ! Tuned [1]: heights, over the same distance. Origin: slopes to the next points change by as
     ! much, a hundredth of those of a patch.
     real(wp), parameter :: double_height = 1.0e-4_wp
-    ! Tuned [halvings]: most of them for the place of a level. Origin: all digits of an interval.
-    integer, parameter :: most_halvings = 60
 
     !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
     type :: gap_curve_t

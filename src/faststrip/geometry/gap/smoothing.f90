@@ -23,9 +23,11 @@
 module faststrip_geometry_gap_smoothing
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: beyond_all
     use faststrip_base_status, only: status_t, set_status, is_error, number_text, st_bad_argument, &
                                      st_not_finite, st_out_of_range, st_linear_algebra
     use faststrip_numerics_lapack, only: dpbtrf, dpbtrs
+    use faststrip_geometry_curve_smoothing, only: caution, bad_fit
     use faststrip_geometry_gap, only: gap_t, check_gap
     implicit none
     private
@@ -39,17 +41,10 @@ module faststrip_geometry_gap_smoothing
     integer, parameter :: band = 3             ! upper diagonals of the system
     ! Given: coefficients of a third difference.
     real(wp), parameter :: third_difference(0:3) = [-1.0_wp, 3.0_wp, -3.0_wp, 1.0_wp]
-    ! Tuned [1]: Weight of the degrees of freedom. Origin: Kim and Gu (2004).
-    real(wp), parameter :: caution = 1.4_wp    ! f
-    ! Tuned [1]: Largest misfit. Origin: chosen; round.
-    real(wp), parameter :: bad_fit = 2.0_wp    ! rms deviation at the least lambda, over the noise
     ! lambda, with the traces of N and D'D made equal: a factor of 10, then finer
     ! Tuned [decades; halvings]: Range of the search and its refinements. Origin: chosen; beyond
     ! both ends nothing changes.
     integer, parameter :: first_decade = -6, last_decade = 13, refinements = 4
-    ! Tuned [1]: noise over heights, either way, that is refused. Origin: safeguard: squares cannot
-    ! overflow.
-    real(wp), parameter :: largest_ratio = 1.0e100_wp
 
     !> The spline through the points of a gap, and the system of its coefficients but for lambda;
     !> heights in units of the largest.
@@ -99,7 +94,7 @@ contains
             smoothed = gap
             return
         end if
-        if (noise/unit > largest_ratio .or. unit/noise > largest_ratio) then
+        if (noise/unit > beyond_all .or. unit/noise > beyond_all) then
             call set_status(status, st_out_of_range, 'noise and heights beyond all proportion')
             return
         end if

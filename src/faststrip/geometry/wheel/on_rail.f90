@@ -13,6 +13,7 @@
 !> A left wheel is given as a right one: in a mirror.
 module faststrip_geometry_wheel_on_rail
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_out_of_range
     use faststrip_geometry_profile, only: profile_t, profile_at, profile_none
@@ -34,8 +35,6 @@ module faststrip_geometry_wheel_on_rail
     ! Tuned [1]: slope of the rail beyond which its ends are left out. Origin: safeguard: no wheel
     ! touches a flank that stands upright, nor is there a cubic through it.
     real(wp), parameter :: steepest = 50.0_wp
-    ! Tuned [steps]: to a point of a turned rail. Origin: capacity; Newton's method takes three.
-    integer, parameter :: most_turned_steps = 30
     ! Tuned [mm]: how near to it. Origin: safeguard: above rounding.
     real(wp), parameter :: near_point = 1.0e-11_wp
     ! Tuned [points]: most points of an outline and of a rail. Origin: capacity.
@@ -230,7 +229,7 @@ contains
                    first => pair%y_sample - pair%y_rail, &
                    last => pair%y_sample + ubound(pair%sample, 1)*pair%sample_step - pair%y_rail)
             along = min(max((y - rail%y - pair%y_rail)*c, first), last)
-            do i = 1, most_turned_steps
+            do i = 1, most_steps
                 call height_in_design(pair, pair%y_rail + along, z, slope, is_there)
                 z = z - pair%z_rail
                 advance = c - slope*s

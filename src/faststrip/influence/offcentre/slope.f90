@@ -3,6 +3,7 @@ module faststrip_influence_offcentre_slope
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, &
                                              ieee_positive_inf
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: beyond_all
     use faststrip_influence_angle_rules, only: cosine, sine
     use faststrip_influence_offcentre_rules, only: for_value, interval, least_far_rule, &
                                                    least_near_rule, scalar_size, scalar_start
@@ -34,9 +35,6 @@ contains
         real(wp), intent(in) :: x !! X, field point along the strip over the half-length
         real(wp), intent(in) :: c !! edge less the field point's y over the half-length
 
-        ! Tuned [half-lengths]: Beyond, the strip is a point. Origin: safeguard: squares cannot
-        ! overflow.
-        real(wp), parameter :: largest = 1.0e100_wp
         ! Tuned [1]: smaller over larger distance that counts for nothing. Origin: its square is
         ! below rounding.
         real(wp), parameter :: no_ratio = 1.0e-8_wp
@@ -49,7 +47,7 @@ contains
         xs = abs(x)
         cs = abs(c)
         rest = abs(1.0_wp - xs)
-        if (max(xs, cs) > largest) then
+        if (max(xs, cs) > beyond_all) then
             slope = 0.5_wp*pi/max(xs, cs)
             if (min(xs, cs) > no_ratio*max(xs, cs)) &
                 slope = slope/sqrt(1.0_wp + (min(xs, cs)/max(xs, cs))**2)

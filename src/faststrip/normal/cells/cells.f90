@@ -2,6 +2,7 @@
 module faststrip_normal_cells
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
+    use faststrip_normal_strip_patches, only: fewest_strips_small_patch
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
@@ -16,8 +17,6 @@ module faststrip_normal_cells
 
     ! Tuned [cells]. Origin: chosen.
     integer, parameter :: range_cells = 3        ! across a range, or neighbours are joined
-    ! Tuned [cells]. Origin: as the strips' fewest_strips_small_patch.
-    integer, parameter :: fewest_cells = 9       ! across a patch, if there is capacity
     ! Added before a number of cells is cut to an integer: widths of ranges often are as small
     ! integers to each other, and a half would leave the number to the rounding.
     ! Tuned [cells]. Origin: chosen: no ratio of small whole numbers.
@@ -138,7 +137,7 @@ contains
 
         associate (from => cells%y_from, to => cells%y_to, m => cells%n_ranges)
             widest = maxval(to(:m) - from(:m))
-            fewest = min(fewest_cells, wanted)
+            fewest = min(fewest_strips_small_patch, wanted)
             do share = wanted, 1, -1
                 fewest = min(fewest, share)
                 do r = 1, m

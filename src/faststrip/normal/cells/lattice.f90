@@ -38,7 +38,7 @@ module faststrip_normal_cells_lattice
     use faststrip_geometry_gap_curve, only: gap_curve_t, mirror_gap_curve
     use faststrip_normal_cells, only: lattice_cells_t, reserve_cells, position_cells, set_reach, &
                                       record_strips
-    use faststrip_normal_cells_overlap, only: find_waves, overlap_tolerance
+    use faststrip_normal_cells_overlap, only: find_waves, overlap_tolerance, named_overlap
     use faststrip_normal_cells_ranges, only: first_ranges, next_ranges
     use faststrip_normal_cells_start, only: start_depth
     use faststrip_normal_limitations, only: check_curvature, check_depth
@@ -71,8 +71,6 @@ module faststrip_normal_cells_lattice
     integer, parameter :: max_lattices = 5
     ! Tuned [cells]. Origin: chosen: within what the first solution leaves open.
     real(wp), parameter :: first_growth = 1.0_wp, growth = 0.3_wp ! of a patch each way, cells
-    ! Tuned [1]. Origin: as tolerated_overlap of the strips.
-    real(wp), parameter :: named_overlap = 0.01_wp ! the same, told to the caller
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread.
     type :: lattice_workspace_t

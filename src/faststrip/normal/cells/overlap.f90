@@ -8,11 +8,14 @@ module faststrip_normal_cells_overlap
     implicit none
     private
 
-    public :: ranges_t, add_overlaps, find_waves, overlap_tolerance
+    public :: ranges_t, add_overlaps, find_waves, overlap_tolerance, named_overlap
 
     !> Overlaps that are left, over the penetration: of cells as of strips.
     !> Tuned [1]. Origin: far below the errors of 15 strips.
     real(wp), parameter :: overlap_tolerance = 1.0e-3_wp
+    !> Overlaps that are named, in rough gaps: `st_overlap_left`.
+    !> Tuned [1]. Origin: chosen.
+    real(wp), parameter :: named_overlap = 0.01_wp
     ! Tuned [points]. Origin: capacity: what is kept on the stack.
     integer, parameter :: block = 64                     ! points evaluated together
 

@@ -1,6 +1,7 @@
 !> Where a lattice starts: the penetration that a load is likely to need.
 module faststrip_normal_cells_start
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_geometry_gap_curve, only: gap_curve_t
     implicit none
     private
@@ -25,8 +26,6 @@ contains
         ! Tuned [1]: Range of the search to either side. Origin: safeguard: all loads that can be
         ! solved.
         real(wp), parameter :: reach_of_search = 2.0_wp**200
-        ! Tuned [halvings]: of the range, of its logarithm. Origin: all digits.
-        integer, parameter :: max_halvings = 70
         real(wp) :: low, high, unit
         integer :: i
 
@@ -34,7 +33,7 @@ contains
         unit = sqrt(compliance*load)
         low = unit/reach_of_search
         high = unit*reach_of_search
-        do i = 1, max_halvings
+        do i = 1, most_steps
             depth = low*sqrt(high/low)
             if (start_load(curve, compliance, depth) < load) then
                 low = depth

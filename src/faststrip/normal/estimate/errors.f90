@@ -76,6 +76,7 @@ module faststrip_normal_estimate_errors
                                      st_bad_argument, st_bad_material, st_not_finite, &
                                      st_no_contact, st_out_of_range, st_workspace_too_small
     use faststrip_geometry_gap_curve, only: gap_curve_t
+    use faststrip_normal_cells_overlap, only: named_overlap
     use faststrip_normal_estimate_outside, only: look_ahead, look_beyond, look_elsewhere
     use faststrip_normal_estimate_pressure, only: missing_pressure, section_load, &
                                                               inv2r_about, find_unresolved, &
@@ -113,9 +114,6 @@ module faststrip_normal_estimate_errors
     ! module's head.
     real(wp), parameter :: pmax_least = 0.4_wp
 
-    ! Tuned [1]: Overlap outside the patches over the penetration from where it counts. Origin: as
-    ! what is called `st_overlap_left`.
-    real(wp), parameter :: telling_overlap = 0.01_wp
     ! The maximum pressure goes with the cube root of the load of its surroundings.
     ! Tuned [power]: The power. Origin: a point contact of Hertz.
     real(wp), parameter :: per_load = 1.0_wp/3.0_wp
@@ -259,7 +257,7 @@ contains
                                        pmax_least/across**2) + per_load*(sums%section/sums%loads)
         normal_errors%est_err_pmax = max(normal_errors%est_err_pmax, &
                                        1.0_wp - result%pmax/max(sums%off_centre, result%pmax))
-        if (normal_errors%overlap_outside > telling_overlap) then
+        if (normal_errors%overlap_outside > named_overlap) then
             normal_errors%est_err_pmax = max(normal_errors%est_err_pmax, &
                                              normal_errors%overlap_outside)
             normal_errors%est_err_area = max(normal_errors%est_err_area, &

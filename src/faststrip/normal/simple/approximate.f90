@@ -6,6 +6,7 @@
 module faststrip_normal_simple_approximate
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_material, only: check_compliance
     use faststrip_base_status, only: status_t, set_status, add_limitation, is_error, number_text, &
                                      count_text, st_bad_argument, st_bad_load, st_not_finite, &
@@ -14,6 +15,7 @@ module faststrip_normal_simple_approximate
     use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_limitations, only: check_curvature, check_depth, check_lowest, &
                                             name_limitations, name_steps
+    use faststrip_normal_strip_patches, only: max_patches, fewest_strips
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_normal_types, only: demand_t, normal_result_t
     implicit none
@@ -24,20 +26,14 @@ module faststrip_normal_simple_approximate
     public :: gauss_place, gauss_weight
 
     !> Most patches of a contact.
-    !> Tuned [patches]. Origin: as max_patches of the strips.
-    integer, parameter, public :: most_zones = 16
+    integer, parameter, public :: most_zones = max_patches
 
-    ! Fewest strips of a patch, if there is capacity.
-    ! Tuned [strips]. Origin: as fewest_strips of the strip solver.
-    integer, parameter :: fewest_strips = 3
     !> How near the load is to come; the pressures make up for the rest.
     !> Tuned [1]. Origin: chosen: far below the errors of the methods.
     real(wp), parameter, public :: close_enough = 1.0e-8_wp
     ! A change of the load by more is a jump: patches met or parted.
     ! Tuned [1]. Origin: chosen: far above close_enough.
     real(wp), parameter :: jump = 1.0e-5_wp
-    ! Tuned [steps]: most of them. Origin: safeguard: a halved bracket has all digits then.
-    integer, parameter :: most_steps = 80
     ! Tuned [1]: bracket of ln(penetration) that is not halved any more. Origin: rounding.
     real(wp), parameter :: narrow = 1.0e-14_wp
     ! The penetration tried first, over the square root of load times compliance: 0.1 mm at 100 kN

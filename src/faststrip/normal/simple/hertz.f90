@@ -11,6 +11,7 @@
 module faststrip_normal_simple_hertz
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      count_text, add_words, message_length, st_bad_argument, &
                                      st_bad_load, st_bad_material, st_no_contact, &
@@ -120,9 +121,6 @@ contains
         real(wp), intent(out) :: s       !! (D - B)/(2K) of the elliptic integrals, in [0, 1/2)
         logical, intent(out) :: found    !! did Newton's method converge?
 
-        ! Tuned [steps]: Most steps for the ratio of the axes. Origin: safeguard: Newton's method
-        ! needs few.
-        integer, parameter :: most_steps = 40
         real(wp) :: target, step, slope
         integer :: i
 

@@ -2,6 +2,7 @@
 module faststrip_normal_simple_patch_ellipse
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: nothing
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range
     use faststrip_normal_strips, only: contact_strips_t, strip_load
@@ -9,7 +10,7 @@ module faststrip_normal_simple_patch_ellipse
     private
 
     public :: patch_ellipse_t, patch_ellipse, patch_end, check_strips
-    public :: most_slender, least_carried
+    public :: most_slender
 
     !> The ellipse of a patch's area and second moments, about the patch's centroid.
     type :: patch_ellipse_t
@@ -26,10 +27,6 @@ module faststrip_normal_simple_patch_ellipse
     !> Strips are refused beyond this, mm and MPa.
     !> Tuned [mm, MPa]. Origin: safeguard.
     real(wp), parameter :: largest = 1.0e9_wp
-
-    !> A patch or a strip below this area (mm^2) or force (N) carries nothing.
-    !> Tuned [mm2, N]. Origin: safeguard.
-    real(wp), parameter :: least_carried = 1.0e-60_wp
 
 contains
 
@@ -103,7 +100,7 @@ contains
             ellipse%y = ellipse%y + 2.0_wp*strips%half_length(i)*counted*y
             ellipse%load = ellipse%load + strip_load(strips%p0(i), strips%half_length(i), counted)
         end do
-        if (area <= least_carried .or. ellipse%load <= least_carried) then
+        if (area <= nothing .or. ellipse%load <= nothing) then
             ellipse = patch_ellipse_t()
             return
         end if

@@ -12,7 +12,7 @@ module faststrip_normal_strip_levels
     use faststrip_normal_cells_lattice, only: lattice_solve, lattice_solve_penetration, &
                                               forget_lattice_errors
     use faststrip_normal_limitations, only: default_resolution
-    use faststrip_normal_strips, only: contact_strips_t, usual_strips
+    use faststrip_normal_strips, only: contact_strips_t, usual_strips, usual_strip_tolerance
     use faststrip_normal_strip_figures, only: summarize
     use faststrip_normal_strip_patches, only: fewest_strips
     use faststrip_normal_strip_row, only: find_patches
@@ -67,8 +67,7 @@ module faststrip_normal_strip_levels
     type :: strip_options_t
         integer :: strips_per_patch = usual_strips
             !! strips across the largest patch, or `strips_auto`
-        ! Tuned [1]. Origin: far below the errors of any number of strips.
-        real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
+        real(wp) :: tolerance = usual_strip_tolerance !! relative size of Newton's last step
         logical :: warm_start = .false.   !! from the last solution of this workspace, if any
         real(wp) :: resolution_limit = default_resolution
             !! `strips_auto` goes on until no estimated error is above this

@@ -5,7 +5,7 @@ module faststrip_normal_strip_patches
     implicit none
     private
 
-    public :: patch_t, patches_t, max_patches, fewest_strips
+    public :: patch_t, patches_t, max_patches, fewest_strips, fewest_strips_small_patch
     public :: share_strips, only_match, nearest_patch, take_in, sort_patches, join_met_patches
     public :: cut_leaving_strips, free_ends, drop_slivers, mirror_patches
 
@@ -15,8 +15,8 @@ module faststrip_normal_strip_patches
     !> Fewest strips a patch can be cut into: its ends are carried on from three.
     !> Tuned [strips]. Origin: a parabola through three.
     integer, parameter :: fewest_strips = 3
-    ! A second patch gets fewer strips than the largest, in proportion to its width, but these.
-    ! Tuned [strips]. Origin: chosen for the errors of small patches.
+    !> A second patch gets fewer strips than the largest, in proportion to its width, but these.
+    !> Tuned [strips]. Origin: chosen for the errors of small patches.
     integer, parameter :: fewest_strips_small_patch = 9
 
     ! An end position beyond all data, mm.

@@ -11,7 +11,7 @@
 !>     give_up   a limit was met; the best converged pass counts if its ends moved little
 module faststrip_normal_strip_settle
     use faststrip_base_kinds, only: wp
-    use faststrip_normal_strips, only: contact_strips_t, usual_strips
+    use faststrip_normal_strips, only: contact_strips_t, usual_strips, usual_strip_tolerance
     use faststrip_normal_strip_coupled, only: settle_coupled, settle_carried, settle_at_once, &
                                               max_factorings, few_factorings
     use faststrip_normal_strip_ends, only: move_ends, part_ends, close_overlaps
@@ -87,8 +87,7 @@ module faststrip_normal_strip_settle
     type :: level_t
         integer :: strips_per_patch = usual_strips !! of the widest patch
         integer :: most_strips = usual_strips      !! of all levels, for the limit of the work
-        ! Tuned [1]. Origin: far below the errors of any number of strips.
-        real(wp) :: tolerance = 1.0e-6_wp !! relative size of Newton's last step
+        real(wp) :: tolerance = usual_strip_tolerance !! relative size of Newton's last step
         logical :: near = .false.         !! do the strips start near a solution?
         logical :: at_once = .false.      !! are strips and ends tried together, or nothing?
         logical :: resumes = .false.      !! near the last one of the workspace?

@@ -27,6 +27,7 @@ module faststrip_normal_strip
     use faststrip_base_material, only: check_compliance
     use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors
     use faststrip_normal_cells_lattice, only: lattice_errors, lattice_errors_t
+    use faststrip_normal_cells_overlap, only: named_overlap
     use faststrip_normal_limitations, only: check_curvature, check_depth, check_lowest, &
                                             name_limitations, name_steps
     use faststrip_normal_strips, only: contact_strips_t, mirror_strips
@@ -46,9 +47,6 @@ module faststrip_normal_strip
     public :: reserve_strip_workspace, set_strip_gap, strip_solve, strip_solve_penetration
     public :: strip_solve_demand, estimate_strips
     public :: fewest_strips, strips_auto, strips_auto_most
-
-    ! Tuned [1]. Origin: chosen; what is more is named.
-    real(wp), parameter :: tolerated_overlap = 0.01_wp ! of the penetration, in rough gaps
 
     ! Tuned [1]: larger tolerances are refused. Origin: chosen.
     real(wp), parameter :: largest_tolerance = 1.0e-2_wp
@@ -185,7 +183,7 @@ contains
         penetration = result%penetration - workspace%curve%h_lowest
         if (n_settled > 0) then
             if (overlap_left(workspace%curve, compliance, penetration, strips) &
-                > tolerated_overlap) &
+                > named_overlap) &
                 call add_limitation(status, st_overlap_left, 'surfaces overlap outside the ' &
                                     //'patches by more than 1 % of the penetration: a rough gap, ' &
                                     //'or one that is cut off')

@@ -24,7 +24,7 @@ module faststrip_tangential_force_errors
         error_safety, smallest_error, largest_estimate
     use faststrip_tangential_patch_coupling, only: coupling_t, tractions_t, find_coupling, &
                                                    induced_motion, sum_tractions, approach, &
-                                                   most_parts
+                                                   most_parts, coupling_passes
     use faststrip_tangential_patch_law, only: patch_law_t, find_law
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
     implicit none
@@ -61,9 +61,6 @@ module faststrip_tangential_force_errors
     ! length, Fy. Origin: 336 contacts of several patches by TANG, as `patch_coupling`; they are
     ! bounded in 95 of 100 contacts.
     real(wp), parameter :: coupling_share(3) = [0.4_wp, 1.0_wp, 0.4_wp]
-    ! Tuned [1]: Times that the tractions of several patches are found anew. Origin: as for the
-    ! forces.
-    integer, parameter :: expected_passes = 2
 
 contains
 
@@ -103,7 +100,7 @@ contains
             call expect_tractions(strips, material, mu, creepage, coupling, apart, status)
             if (is_error(status)) return
             tractions = apart
-            do k = 1, expected_passes
+            do k = 1, coupling_passes
                 call expect_tractions(strips, material, mu, creepage, coupling, tractions, status)
                 if (is_error(status)) return
             end do

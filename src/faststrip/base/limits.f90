@@ -1,0 +1,22 @@
+!> Limits that searches and checks of all rooms share; none of them decides a digit of an answer.
+module faststrip_base_limits
+    use faststrip_base_kinds, only: wp
+    implicit none
+    private
+
+    public :: most_steps, most_halvings, nothing, beyond_all
+
+    !> Most steps of a search that goes on until it is there.
+    !> Tuned [steps]. Origin: safeguard: Newton's and secant steps take three to ten, a bracket that
+    !> is halved has all digits after 60.
+    integer, parameter :: most_steps = 100
+    !> Halvings of an interval to its last digit.
+    !> Tuned [halvings]. Origin: 53 binary digits, and some for a wide interval.
+    integer, parameter :: most_halvings = 60
+    !> Lengths, areas and loads below carry nothing.
+    !> Tuned [mm, mm2, N, MPa]. Origin: safeguard: products of them do not underflow.
+    real(wp), parameter :: nothing = 1.0e-60_wp
+    !> Numbers above stand for infinite ones, or are refused.
+    !> Tuned [1]. Origin: safeguard: squares cannot overflow.
+    real(wp), parameter :: beyond_all = 1.0e100_wp
+end module faststrip_base_limits
