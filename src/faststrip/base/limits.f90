@@ -4,7 +4,7 @@ module faststrip_base_limits
     implicit none
     private
 
-    public :: most_steps, most_halvings, nothing, beyond_all
+    public :: most_steps, most_halvings, smallest_size, largest_size, nothing, beyond_all
 
     !> Most steps of a search that goes on until it is there.
     !> Tuned [steps]. Origin: safeguard: Newton's and secant steps take three to ten, a bracket that
@@ -13,6 +13,9 @@ module faststrip_base_limits
     !> Halvings of an interval to its last digit.
     !> Tuned [halvings]. Origin: 53 binary digits, and some for a wide interval.
     integer, parameter :: most_halvings = 60
+    !> Lengths, pressures, ratios and numbers outside are refused, or count as these.
+    !> Tuned [mm, MPa, 1]. Origin: safeguard: fourth powers of them are still numbers.
+    real(wp), parameter :: smallest_size = 1.0e-30_wp, largest_size = 1.0e30_wp
     !> Lengths, areas and loads below carry nothing.
     !> Tuned [mm, mm2, N, MPa]. Origin: safeguard: products of them do not underflow.
     real(wp), parameter :: nothing = 1.0e-60_wp

@@ -30,6 +30,7 @@
 module faststrip_normal_limitations
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: largest_size
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      add_limitation, add_words, message_length, st_bad_argument, &
                                      st_edge_of_data, st_flat_along_x, st_conformal, &
@@ -70,8 +71,6 @@ module faststrip_normal_limitations
     real(wp), parameter :: fill_step = 0.5_wp
     ! Tuned [mm]: Penetrations outside are refused. Origin: safeguard: no product can overflow.
     real(wp), parameter :: smallest_depth = 1.0e-60_wp, largest_depth = 1.0e60_wp
-    ! Tuned [mm]: half-lengths beyond count as this. Origin: safeguard: no product can overflow.
-    real(wp), parameter :: longest = 1.0e30_wp
 
 contains
 
@@ -233,7 +232,7 @@ contains
             inv2r = gap_inv2r(curve, y)
             lowest = min(lowest, inv2r)
             highest = max(highest, inv2r)
-            slope = max(slope, 2.0_wp*max(inv2r, 0.0_wp)*min(strips%half_length(k), longest))
+            slope = max(slope, 2.0_wp*max(inv2r, 0.0_wp)*min(strips%half_length(k), largest_size))
             if (k < strips%n) then
                 if (strips%patch(k + 1) == strips%patch(k)) cycle
             end if

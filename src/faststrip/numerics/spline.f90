@@ -5,6 +5,7 @@
 module faststrip_numerics_spline
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_size
     use faststrip_numerics_lapack, only: dgtsv
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
                                      st_bad_argument, st_linear_algebra, st_not_finite, &
@@ -25,11 +26,6 @@ module faststrip_numerics_spline
     !> harmonic mean of Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984)).
     !> Given: numbers of kinds.
     integer, parameter :: spline_monotone = 2
-
-    ! Numbers beyond this, and knots nearer to each other than its inverse, are refused: with
-    ! them no intermediate result can overflow.
-    ! Tuned [1]. Origin: safeguard: fourth powers cannot overflow.
-    real(wp), parameter :: largest = 1.0e30_wp
 
 contains
 
@@ -103,7 +99,7 @@ contains
                                 trim(number_text(x(i))) // ', ' // trim(number_text(y(i))) // ')')
                 return
             end if
-            if (max(abs(x(i)), abs(y(i))) > largest) then
+            if (max(abs(x(i)), abs(y(i))) > largest_size) then
                 call set_status(status, st_bad_argument, &
                                 'spline: points must be within 1e30, got (' // &
                                 trim(number_text(x(i))) // ', ' // trim(number_text(y(i))) // ')')
@@ -111,7 +107,7 @@ contains
             end if
         end do
         do i = 2, size(x)
-            if (x(i) - x(i - 1) < 1.0_wp/largest) then
+            if (x(i) - x(i - 1) < 1.0_wp/largest_size) then
                 call set_status(status, st_not_increasing, &
                                 'spline: knots must ascend, got ' // &
                                 trim(number_text(x(i))))
@@ -231,7 +227,7 @@ contains
             value = ieee_value(value, ieee_quiet_nan)
             d1 = value
             d2 = value
-        else if (abs(at) > largest) then
+        else if (abs(at) > largest_size) then
             value = ieee_value(value, ieee_quiet_nan)
             d1 = value
             d2 = value

@@ -2,6 +2,7 @@
 module faststrip_tangential_motion
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_size
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range
     use faststrip_base_creepage, only: creepage_t
@@ -14,9 +15,6 @@ module faststrip_tangential_motion
     !> Friction coefficients and creepages (spin in rad/mm) beyond this are refused.
     !> Tuned [1, rad/mm]. Origin: safeguard.
     real(wp), parameter :: largest = 1.0e6_wp
-    ! Tuned [1]: linear forces over mu N beyond count as this. Origin: safeguard: squares cannot
-    ! overflow.
-    real(wp), parameter :: beyond_all_slip = 1.0e30_wp
 
 contains
 
@@ -88,6 +86,6 @@ contains
         real(wp), intent(in) :: linear !! of either sign, N
         real(wp), intent(in) :: force  !! mu N, above 1e-60 N
 
-        ratio = min(abs(linear)/force, beyond_all_slip)
+        ratio = min(abs(linear)/force, largest_size)
     end function over_force
 end module faststrip_tangential_motion

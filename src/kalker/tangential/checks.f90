@@ -2,6 +2,7 @@
 module faststrip_kalker_tangential_checks
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_size, smallest_size
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_contact, st_not_finite, &
                                      st_out_of_range
@@ -10,11 +11,8 @@ module faststrip_kalker_tangential_checks
     implicit none
     private
 
-    public :: check_bodies, check_grid, smallest
+    public :: check_bodies, check_grid
 
-    !> Sizes beyond which nothing is promised.
-    !> Tuned [mm, MPa]. Origin: safeguard.
-    real(wp), parameter :: smallest = 1.0e-30_wp, largest = 1.0e30_wp
     ! Tuned [1]: sides of elements beyond this proportion are refused. Origin: safeguard.
     real(wp), parameter :: largest_ratio = 1.0e6_wp
 
@@ -29,13 +27,13 @@ contains
 
         call check_material(material, status)
         if (is_error(status)) return
-        if (max(material%e_wheel, material%e_rail) > largest .or. &
-            min(material%e_wheel, material%e_rail) < smallest) then
+        if (max(material%e_wheel, material%e_rail) > largest_size .or. &
+            min(material%e_wheel, material%e_rail) < smallest_size) then
             call set_status(status, st_out_of_range, "Young's moduli beyond 1e-30 to 1e30 MPa")
             return
         end if
         g = combined_shear_modulus(material)
-        if (g > largest .or. g < smallest) then
+        if (g > largest_size .or. g < smallest_size) then
             call set_status(status, st_out_of_range, 'shear moduli beyond 1e-30 to 1e30 MPa')
         end if
     end subroutine check_bodies
@@ -64,8 +62,8 @@ contains
         else if (min(grid%dx, grid%dy) <= 0.0_wp) then
             call set_status(status, st_bad_argument, 'elements without sides')
             return
-        else if (max(grid%dx, grid%dy, abs(grid%x_first), abs(grid%y_first)) > largest .or. &
-                 min(grid%dx, grid%dy) < smallest .or. &
+        else if (max(grid%dx, grid%dy, abs(grid%x_first), abs(grid%y_first)) > largest_size .or. &
+                 min(grid%dx, grid%dy) < smallest_size .or. &
                  max(grid%dx/grid%dy, grid%dy/grid%dx) > largest_ratio) then
             call set_status(status, st_out_of_range, 'elements or places beyond all proportion')
             return
@@ -80,9 +78,9 @@ contains
                 return
             end if
         end do
-        if (maxval(grid%pressure) > largest) then
+        if (maxval(grid%pressure) > largest_size) then
             call set_status(status, st_out_of_range, 'a pressure is above 1e30 MPa')
-        else if (maxval(grid%pressure) < smallest) then
+        else if (maxval(grid%pressure) < smallest_size) then
             call set_status(status, st_no_contact, 'no element is in contact')
         end if
     end subroutine check_grid

@@ -13,6 +13,7 @@
 module faststrip_kalker_tangential_history
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_size
     use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument, &
                                      st_not_finite, st_out_of_range
     use faststrip_kalker_grid, only: contact_grid_t
@@ -40,8 +41,6 @@ module faststrip_kalker_tangential_history
     ! Tuned [elements]: most of them between the first middles of two steps. Origin: safeguard: more
     ! than a convolution holds.
     real(wp), parameter :: farthest = 1.0e5_wp
-    ! Tuned [MPa]: pressures and tractions beyond are refused. Origin: safeguard.
-    real(wp), parameter :: largest = 1.0e30_wp
 
 contains
 
@@ -107,7 +106,7 @@ contains
         else if (any(history%pressure < 0.0_wp)) then
             call set_status(status, st_bad_argument, 'a pressure of the step before is negative')
         else if (max(maxval(history%pressure), maxval(abs(history%px)), &
-                     maxval(abs(history%py))) > largest) then
+                     maxval(abs(history%py))) > largest_size) then
             call set_status(status, st_out_of_range, &
                             'a pressure or a traction of the step before is above 1e30 MPa')
         end if

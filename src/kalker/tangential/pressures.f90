@@ -2,6 +2,7 @@
 module faststrip_kalker_tangential_pressures
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: largest_size, smallest_size
     use faststrip_base_text, only: integer_text
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_contact, st_not_finite, &
@@ -15,9 +16,6 @@ module faststrip_kalker_tangential_pressures
 
     public :: sample_strips, sample_ellipse
 
-    ! Sizes beyond which nothing is promised, mm, MPa.
-    ! Tuned [mm, MPa]. Origin: safeguard.
-    real(wp), parameter :: smallest = 1.0e-30_wp, largest = 1.0e30_wp
     ! A whole number of elements stays one.
     ! Tuned [elements]. Origin: safeguard: above rounding.
     real(wp), parameter :: rounding = 1.0e-9_wp
@@ -63,7 +61,7 @@ contains
         else if (min(a, b) <= 0.0_wp .or. load < 0.0_wp) then
             call set_status(status, st_bad_argument, 'no ellipse, or a negative load')
             return
-        else if (max(a, b, abs(y0), load) > largest .or. min(a, b) < smallest) then
+        else if (max(a, b, abs(y0), load) > largest_size .or. min(a, b) < smallest_size) then
             call set_status(status, st_out_of_range, 'an ellipse beyond all proportion')
             return
         end if
@@ -95,7 +93,7 @@ contains
         else if (min(dx, dy) <= 0.0_wp) then
             call set_status(status, st_bad_argument, 'elements without sides')
             return
-        else if (max(dx, dy) > largest .or. min(dx, dy) < smallest) then
+        else if (max(dx, dy) > largest_size .or. min(dx, dy) < smallest_size) then
             call set_status(status, st_out_of_range, 'elements beyond all proportion')
             return
         end if

@@ -21,6 +21,7 @@
 module faststrip_kalker_tangential
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: smallest_size
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_convergence, st_not_finite
     use faststrip_base_material, only: material_t
@@ -30,7 +31,7 @@ module faststrip_kalker_tangential
     use faststrip_tangential_motion, only: check_motion
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
                                           add_element, state_adhesion, state_slip
-    use faststrip_kalker_tangential_checks, only: check_bodies, check_grid, smallest
+    use faststrip_kalker_tangential_checks, only: check_bodies, check_grid
     use faststrip_kalker_tangential_history, only: tang_history_t, size_history, check_history, &
                                                    place_history
     use faststrip_kalker_tangential_nested, only: nested_t, choice_t, start_from_coarse, &
@@ -171,7 +172,7 @@ contains
         call size_newton(workspace%newton, workspace%problem)
         workspace%newton%products = 0
         workspace%newton%iterations = 0
-        if (mu*maxval(workspace%problem%pn(:workspace%problem%n)) <= smallest &
+        if (mu*maxval(workspace%problem%pn(:workspace%problem%n)) <= smallest_size &
             .and. .not. options%sticks_everywhere) then
             call slide_freely(workspace%newton, workspace%problem)
             workspace%is_solved = .false.

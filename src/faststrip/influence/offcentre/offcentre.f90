@@ -30,6 +30,7 @@
 module faststrip_influence_offcentre
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: beyond_all
     use faststrip_influence_closed, only: strip_influence_edges, strip_influence_center_gradient
     use faststrip_influence_closed_coefficients, only: atanh_last
     use faststrip_influence_angle_rules, only: cosine
@@ -179,9 +180,6 @@ contains
         real(wp), intent(in) :: x, xd, el, er
         real(wp), intent(out) :: m(3)
 
-        ! Tuned [half-lengths]: Edges beyond are infinitely far. Origin: safeguard: squares cannot
-        ! overflow.
-        real(wp), parameter :: far_edge = 1.0e60_wp
         real(wp) :: size, xs, cl, cr, sl, sr, ker
         logical :: beyond
 
@@ -189,8 +187,8 @@ contains
         xs = x/size
         cl = el/size
         sl = hypot(xs, cl)
-        beyond = er/far_edge > size
-        if (size < 1.0_wp) beyond = er > far_edge*size
+        beyond = er/beyond_all > size
+        if (size < 1.0_wp) beyond = er > beyond_all*size
         if (beyond) then
             ker = log_2 + log(er) - log(size) - log(cl + sl)
             m(2) = -xs/(sl*(cl + sl))

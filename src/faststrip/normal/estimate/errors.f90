@@ -72,6 +72,7 @@
 module faststrip_normal_estimate_errors
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_size, smallest_size
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_bad_material, st_not_finite, &
                                      st_no_contact, st_out_of_range, st_workspace_too_small
@@ -81,8 +82,7 @@ module faststrip_normal_estimate_errors
     use faststrip_normal_estimate_pressure, only: missing_pressure, section_load, &
                                                               inv2r_about, find_unresolved, &
                                                               unresolved_factor
-    use faststrip_normal_estimate_samples, only: samples_t, take_samples, block, &
-                                                             smallest, largest
+    use faststrip_normal_estimate_samples, only: samples_t, take_samples, block
     use faststrip_normal_strips, only: contact_strips_t, starts_patch, first_of_patch, last_of_patch
     use faststrip_normal_types, only: normal_result_t
     use faststrip_normal_estimate_longitudinal, only: inv2r_range, local_rise, off_centre_pressure
@@ -216,7 +216,7 @@ contains
         area = width*strips%half_length(k)
         call find_unresolved(curve, compliance, strips, k, unresolved, at_tip)
         sums%unresolved = sums%unresolved &
-                          + area*min(1.0_wp, unresolved/max(strips%p0(k), smallest))
+                          + area*min(1.0_wp, unresolved/max(strips%p0(k), smallest_size))
         sums%areas = sums%areas + area
         call local_rise(curve, strips%y_left(k), strips%y_right(k), strips%half_length(k), &
                         inv2r_about(strips, k, i, samples), rise, variation)
@@ -286,12 +286,12 @@ contains
             call set_status(status, st_not_finite, 'a figure of the solutions is not finite')
             return
         end if
-        if (ratio <= 1.0_wp .or. ratio > largest) then
+        if (ratio <= 1.0_wp .or. ratio > largest_size) then
             call set_status(status, st_bad_argument, 'the ratio of the numbers of strips must ' &
                             //'be above 1, got '//number_text(ratio))
-        else if (min(fine%pmax, fine%area, fine%penetration - h_lowest) < smallest &
-                 .or. max(coarse%pmax, coarse%area, abs(coarse%penetration)) > largest &
-                 .or. max(fine%pmax, fine%area, abs(fine%penetration)) > largest) then
+        else if (min(fine%pmax, fine%area, fine%penetration - h_lowest) < smallest_size &
+                 .or. max(coarse%pmax, coarse%area, abs(coarse%penetration)) > largest_size &
+                 .or. max(fine%pmax, fine%area, abs(fine%penetration)) > largest_size) then
             call set_status(status, st_bad_argument, 'a result without penetration, pressure or ' &
                             //'area')
         else
@@ -356,10 +356,10 @@ contains
                 return
             end if
         end do
-        if (low < smallest .or. high > largest) then
+        if (low < smallest_size .or. high > largest_size) then
             call set_status(status, st_out_of_range, &
                             'a size of the solution is beyond 1e-30 to 1e30')
-        else if (maxval(strips%p0(:strips%n)) < smallest) then
+        else if (maxval(strips%p0(:strips%n)) < smallest_size) then
             call set_status(status, st_bad_argument, 'no strip carries pressure')
         end if
     end subroutine check_solution

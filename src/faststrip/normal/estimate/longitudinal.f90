@@ -19,6 +19,7 @@
 !>   press in all around them.
 module faststrip_normal_estimate_longitudinal
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: largest_size
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, first_point_from
     use faststrip_normal_strip_state, only: flattest
     implicit none
@@ -57,9 +58,6 @@ module faststrip_normal_estimate_longitudinal
     real(wp), parameter :: nearest = 0.25_wp
     ! Tuned [cells]: Number. Origin: chosen.
     integer, parameter :: cells = 10
-
-    ! Tuned [1/mm]. Origin: safeguard.
-    real(wp), parameter :: largest = 1.0e30_wp ! A that cannot overflow, 1/mm
 
     ! The same, with A's bracket at its largest everywhere: distances of less than a width give
     ! 2*(4 + 3)/w, those beyond 2/w.
@@ -183,7 +181,7 @@ contains
     pure real(wp) function usable(inv2r)
         real(wp), intent(in) :: inv2r
 
-        usable = min(max(inv2r, flattest), largest)
+        usable = min(max(inv2r, flattest), largest_size)
     end function usable
 
     !> The first of the gap's points in a stretch, and how many there are.

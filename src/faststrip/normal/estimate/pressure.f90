@@ -2,8 +2,9 @@
 !> `faststrip_normal_estimate_errors` for one strip.
 module faststrip_normal_estimate_pressure
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: largest_size
     use faststrip_geometry_gap_curve, only: gap_curve_t
-    use faststrip_normal_estimate_samples, only: samples_t, largest
+    use faststrip_normal_estimate_samples, only: samples_t
     use faststrip_normal_estimate_longitudinal, only: inv2r_samples_t
     use faststrip_normal_strips, only: contact_strips_t, starts_patch, last_of_patch
     use faststrip_normal_estimate_unresolved, only: unresolved_pressure, &
@@ -148,7 +149,7 @@ contains
             if (n == 4) n = n + 1
             pressure = unresolved_pressure(curve, compliance, left(k), right(k), node(:n))
             tip = unresolved_pressure_growth(curve, compliance, left(k), right(k), node(:n)) &
-                  *min(strips%half_length(k), largest)**2
+                  *min(strips%half_length(k), largest_size)**2
         end associate
         half = 0.5_wp*max(strips%p0(k), 0.0_wp)
         rise = 0.0_wp

@@ -2,6 +2,7 @@
 !> was not asked for: `m`, `e` and `t` of `faststrip_normal_estimate_errors`.
 module faststrip_normal_estimate_samples
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_size
     use faststrip_influence_row, only: center_influence_column, influence_column_gradient
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
     use faststrip_normal_strips, only: contact_strips_t, starts_patch, first_of_patch, last_of_patch
@@ -10,7 +11,7 @@ module faststrip_normal_estimate_samples
     private
 
     public :: samples_t, take_samples, sample, sample_centre_line
-    public :: block, smallest, largest
+    public :: block
 
     ! Tuned [strips]. Origin: capacity: what is kept on the stack.
     integer, parameter :: block = 32         !! strips sampled together
@@ -25,10 +26,6 @@ module faststrip_normal_estimate_samples
         real(wp), dimension(0:block + 1) :: inv2r = 0.0_wp  ! A in the middle of the strip
         real(wp), dimension(0:block + 1) :: inv2r_right = 0.0_wp ! A at the right edge
     end type samples_t
-
-    !> Sizes that cannot overflow.
-    ! Tuned [mm, MPa]. Origin: safeguard.
-    real(wp), parameter :: smallest = 1.0e-30_wp, largest = 1.0e30_wp
 
 contains
 
@@ -112,7 +109,7 @@ contains
         m = size(y)
         do i = 1, m
             call gap_at(curve, y(i), h, inv2r(i))
-            inv2r(i) = min(max(inv2r(i), flattest), largest)
+            inv2r(i) = min(max(inv2r(i), flattest), largest_size)
             gap(i) = (h - curve%h_lowest)/depth - 1.0_wp + inv2r(i)*(x(i)*(x(i)/depth))
         end do
         do s = 1, strips%n

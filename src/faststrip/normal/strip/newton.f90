@@ -1,6 +1,7 @@
 !> Newton's method for the pressures and lengths of strips whose lateral edges are given.
 module faststrip_normal_strip_newton
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: beyond_all
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_normal_strip_equations, only: add_cost, strip_jacobian, mark_leaving_strips
     use faststrip_normal_strip_pass, only: pass_strips_t
@@ -35,8 +36,6 @@ module faststrip_normal_strip_newton
     real(wp), parameter :: max_log_length_step = 0.7_wp
     ! Tuned [1]: Largest step of the penetration over itself. Origin: convergence from afar.
     real(wp), parameter :: max_penetration_step = 0.5_wp
-    ! Tuned [1]: residual before the first step: any is less. Origin: safeguard.
-    real(wp), parameter :: no_residual = 1.0e100_wp
 
     !> Updates of one Jacobian at most, see `faststrip_normal_strip_coupled`.
     !> Tuned [updates]. Origin: chosen for the time: by then a new Jacobian is cheaper.
@@ -94,7 +93,7 @@ contains
         workspace%kept = .false.
         strips%leaves(:n) = .false.
         backs = 0
-        residual_before = no_residual
+        residual_before = beyond_all
         p_scale = 1.0_wp
         limit = 1.0_wp
         depth = strips%penetration

@@ -2,6 +2,7 @@
 !> and how patches appear, meet, are cut and split.
 module faststrip_normal_strip_patches
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: beyond_all
     implicit none
     private
 
@@ -19,9 +20,6 @@ module faststrip_normal_strip_patches
     !> Tuned [strips]. Origin: chosen for the errors of small patches.
     integer, parameter :: fewest_strips_small_patch = 9
 
-    ! An end position beyond all data, mm.
-    ! Tuned [mm]. Origin: safeguard.
-    real(wp), parameter :: far = 1.0e100_wp
     ! Tuned [spacings]: width of an overlap from which it moves the end of the patch it touches.
     ! Origin: chosen: more than one place.
     real(wp), parameter :: wide_seed = 1.5_wp
@@ -37,7 +35,7 @@ module faststrip_normal_strip_patches
         ! with the gap up to a level, or to its ends where that is zero; mm, MPa, mm.
         real(wp) :: seed_length = 0.0_wp, seed_pressure = 0.0_wp, seed_level = 0.0_wp
         ! Ends at which strips left: the true ends lie further in.
-        real(wp) :: too_far_from = -far, too_far_to = far
+        real(wp) :: too_far_from = -beyond_all, too_far_to = beyond_all
         integer :: pushes_from = 0, pushes_to = 0
         logical :: meets_next = .false. ! is its right end the left end of the next one?
     end type patch_t
@@ -298,8 +296,8 @@ contains
     pure subroutine free_ends(patches)
         type(patches_t), intent(inout) :: patches !! their ends may move anywhere
 
-        patches%at%too_far_from = -far
-        patches%at%too_far_to = far
+        patches%at%too_far_from = -beyond_all
+        patches%at%too_far_to = beyond_all
         patches%at%pushes_from = 0
         patches%at%pushes_to = 0
     end subroutine free_ends
