@@ -154,8 +154,9 @@ class Bench(LabTest):
             self.assertLess(abs(float(row["penetration_err"])), 2e-2, row)
             kind = row["set"], row["method"]
             counts[kind] = counts.get(kind, 0) + 1
-        self.assertEqual(counts, {("contacts", "lattice"): 3 * 4, ("ellipses", "lattice"): 12 * 4,
-                                  ("kinks", "strip"): 10 * 4, ("flat_tops", "strip"): 6 * 4})
+        self.assertEqual(counts, {
+            ("s1002_uic60", "lattice"): 3 * 4, ("ellipses", "lattice"): 12 * 4,
+            ("kinks", "strip"): 10 * 4, ("flat_tops", "strip"): 6 * 4})
         self.assertEqual(said.count("mean/max"), 16)
         finest = [abs(float(row["pmax_err"])) for row in rows if row["strips"] == "201"]
         usual = [abs(float(row["pmax_err"])) for row in rows if row["strips"] == "15"]

@@ -53,7 +53,7 @@ class OneContact(unittest.TestCase):
         self.assertGreater(len(found), 60)
         self.assertEqual(found["contact_case_t"], "demand_t")
         self.assertEqual(found["case_t"], "settings_t")
-        for name in ("settings_t", "prepared_case_t", "bench_case_t", "trade_case_t",
+        for name in ("settings_t", "prepared_case_t", "bench_case_t",
                      "fuzz_case_t"):
             self.assertEqual(found[name], "contact_case_t", name)
 

@@ -1,30 +1,38 @@
-!> The contacts that are measured, solved by CONTACT: those of the paper's section 5, and Hertz
-!> ellipses under many creepages.
+!> The sets of contacts that benches measure, with the figures of a reference: those of the paper's
+!> section 5 and Hertz ellipses under many creepages, by CONTACT; contacts of many kinds, by NORM
+!> and TANG. See `reference/README.md`.
 module faststrip_lab_grid_cases
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, st_file_format
     use faststrip_files_csv, only: csv_table_t, read_csv, column_numbers, require_column, cell_text
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_material, only: material_t
+    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_numerics_elliptic, only: complete_elliptic, complete_elliptic_d
     use faststrip_files_gap, only: read_gap_file
-    use faststrip_base_text, only: set_place_status
+    use faststrip_base_text, only: integer_text, set_place_status
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
+    use faststrip_lab_random_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
     private
 
-    public :: bench_case_t, read_bench_cases, read_ellipse_cases, read_columns
+    public :: bench_case_t, read_bench_cases, read_ellipse_cases, read_scene_cases
 
-    !> One contact and what CONTACT finds for it.
+    !> One contact and what a reference finds for it.
     type, extends(contact_case_t) :: bench_case_t
-        character(len=:), allocatable :: name !! `shift_` and the lateral shift; of an ellipse, what
-                                              !! its creepages are
-        real(wp) :: shift = 0.0_wp            !! lateral shift of the wheelset, mm
-        real(wp) :: a = 0.0_wp, b = 0.0_wp    !! semi-axes of an ellipse, mm
-        type(normal_result_t) :: truth        !! by CONTACT; the area extrapolated in the grid
-        real(wp) :: forces(3) = 0.0_wp        !! Fx, Fy, N, and Mz, N mm, by CONTACT, extrapolated
-        real(wp) :: stick_fraction = 0.0_wp   !! of its elements
+        character(len=:), allocatable :: set   !! where it comes from
+        character(len=:), allocatable :: name  !! its name there
+        character(len=:), allocatable :: group !! of the set, that it belongs to
+        real(wp) :: shift = 0.0_wp             !! lateral shift of the wheelset, mm
+        real(wp) :: a = 0.0_wp, b = 0.0_wp     !! semi-axes of an ellipse, mm
+        type(normal_result_t) :: truth         !! of CONTACT the area extrapolated in the grid
+        logical :: area_counts = .true.        !! is the area known better than to an element?
+        real(wp) :: forces(3) = 0.0_wp         !! Fx, Fy, N, and Mz, N mm, extrapolated
+        real(wp) :: stick_fraction = 0.0_wp    !! of its elements
     end type bench_case_t
+
+    integer, parameter :: ellipse_points = 401
+    real(wp), parameter :: ellipse_reach = 2.0_wp ! of the semi-axis
 
 contains
 
@@ -52,7 +60,9 @@ contains
         allocate (cases(size(words)))
         if (is_error(status)) return
         do i = 1, size(cases)
+            cases(i)%set = 's1002_uic60'
             cases(i)%name = 'shift_' // trim(words(i))
+            cases(i)%group = 'all'
             cases(i)%shift = values(i, 1)
             cases(i)%load = values(i, 2)
             cases(i)%creepage = creepage_t(values(i, 3), values(i, 4), values(i, 5))
@@ -68,7 +78,7 @@ contains
         end do
     end subroutine read_bench_cases
 
-    !> Read `hertz_creep.csv` of a folder; these cases have no gap.
+    !> Read `hertz_creep.csv` of a folder: forces by CONTACT, the rest exact.
     subroutine read_ellipse_cases(folder, cases, status)
         character(len=*), intent(in) :: folder                     !! name of the folder
         type(bench_case_t), allocatable, intent(out) :: cases(:)   !! one a row
@@ -79,15 +89,17 @@ contains
             'Fy_extrap', 'Mz_extrap', 'n_adh', 'n_con']
         character(len=:), allocatable :: words(:)
         real(wp), allocatable :: values(:, :)
-        real(wp) :: young
-        integer :: i
+        real(wp) :: young, inv2r_x, inv2r_y
+        integer :: i, k
 
         call read_rows(folder // '/hertz_creep.csv', 'case', names, words, values, status)
         allocate (cases(size(words)))
         if (is_error(status)) return
         do i = 1, size(cases)
             associate (row => values(i, :))
-                cases(i)%name = trim(words(i))
+                cases(i)%set = 'hertz'
+                cases(i)%name = 'row_' // integer_text(i)
+                cases(i)%group = trim(words(i))
                 cases(i)%a = row(1)
                 cases(i)%b = row(2)
                 young = 2.0_wp*row(3)*(1.0_wp + row(4))
@@ -99,9 +111,76 @@ contains
                 cases(i)%truth%pmax = 1.5_wp*row(6)/(pi*row(1)*row(2))
                 cases(i)%forces = row(10:12)
                 cases(i)%stick_fraction = row(13)/row(14)
+                call ellipse_gap(row(1), row(2), row(6)*normal_compliance(cases(i)%material), &
+                                 inv2r_x, inv2r_y, cases(i)%truth%penetration)
+                associate (gap => cases(i)%gap)
+                    allocate (gap%y(ellipse_points), gap%h(ellipse_points), &
+                              gap%inv2r(ellipse_points))
+                    do k = 1, ellipse_points
+                        gap%y(k) = ellipse_reach*row(2)*(2*k - 1 - ellipse_points) &
+                                   /(ellipse_points - 1)
+                        gap%h(k) = inv2r_y*gap%y(k)**2
+                        gap%inv2r(k) = inv2r_x
+                    end do
+                end associate
             end associate
         end do
     end subroutine read_ellipse_cases
+
+    !> Read the contacts of many kinds, their figures by Kalker's method.
+    subroutine read_scene_cases(file, cases, status)
+        character(len=*), intent(in) :: file                     !! `scenes.csv`
+        type(bench_case_t), allocatable, intent(out) :: cases(:) !! one a row
+        type(status_t), intent(out) :: status                    !! of the reader
+
+        character(len=*), parameter :: names(11) = [character(len=15) :: &
+            'number', 'cksi', 'ceta', 'cphi_rad_per_mm', 'penetration_mm', 'pmax_MPa', &
+            'area_mm2', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'stick_fraction']
+        type(csv_table_t) :: table
+        type(reference_scene_t) :: scene
+        real(wp), allocatable :: values(:, :)
+        integer :: i
+
+        call read_csv(file, table, status)
+        if (.not. is_error(status)) call read_columns(table, names, values, status)
+        allocate (cases(table%n_rows))
+        if (is_error(status)) return
+        do i = 1, size(cases)
+            associate (row => values(i, :))
+                call make_reference_scene(nint(row(1)), scene)
+                cases(i)%contact_case_t = scene%contact_case_t
+                cases(i)%set = 'scenes'
+                cases(i)%name = integer_text(scene%number)
+                cases(i)%group = trim(merge('even', 'odd ', modulo(scene%number, 2) == 0))
+                cases(i)%creepage = creepage_t(row(2), row(3), row(4))
+                cases(i)%truth%penetration = row(5)
+                cases(i)%truth%pmax = row(6)
+                cases(i)%truth%area = row(7)
+                cases(i)%area_counts = .false.
+                cases(i)%forces = row(8:10)
+                cases(i)%stick_fraction = row(11)
+            end associate
+        end do
+    end subroutine read_scene_cases
+
+    !> The curvatures under which a load makes a given ellipse, and the penetration
+    !> (`faststrip_normal_simple_hertz`, read backwards).
+    pure subroutine ellipse_gap(a, b, load_compliance, inv2r_x, inv2r_y, penetration)
+        real(wp), intent(in) :: a, b            ! semi-axes, mm
+        real(wp), intent(in) :: load_compliance ! Q H, mm2
+        real(wp), intent(out) :: inv2r_x, inv2r_y, penetration
+
+        real(wp) :: k, e, d, along, across, long
+
+        long = max(a, b)
+        call complete_elliptic((min(a, b)/long)**2, k, e)
+        d = complete_elliptic_d((min(a, b)/long)**2)
+        along = 1.5_wp*load_compliance*d/long**3
+        across = 1.5_wp*load_compliance*(k - d)/(long*min(a, b)**2)
+        inv2r_x = merge(along, across, a >= b)
+        inv2r_y = merge(across, along, a >= b)
+        penetration = 1.5_wp*load_compliance*k/long
+    end subroutine ellipse_gap
 
     ! The words of one column and the numbers of others, at least one row.
     subroutine read_rows(file, name, names, words, values, status)
@@ -133,12 +212,12 @@ contains
         end do
     end subroutine read_rows
 
-    !> The numbers of several columns.
+    ! The numbers of several columns.
     subroutine read_columns(table, names, values, status)
-        type(csv_table_t), intent(in) :: table             !! a table that was read
-        character(len=*), intent(in) :: names(:)           !! of the columns
-        real(wp), allocatable, intent(out) :: values(:, :) !! rows by names
-        type(status_t), intent(out) :: status              !! of `column_numbers`
+        type(csv_table_t), intent(in) :: table
+        character(len=*), intent(in) :: names(:)
+        real(wp), allocatable, intent(out) :: values(:, :) ! rows by names
+        type(status_t), intent(out) :: status
 
         real(wp), allocatable :: column(:)
         integer :: i

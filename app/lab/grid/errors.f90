@@ -18,7 +18,6 @@ module faststrip_lab_grid_errors
     use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_strips, only: usual_strips, reserve_strips
     use faststrip_normal_types, only: normal_result_t
-    use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
     use faststrip_lab_grid_ellipse, only: make_ellipse
@@ -40,13 +39,6 @@ module faststrip_lab_grid_errors
     character(len=*), parameter :: error_columns(n_errors) = [character(len=15) :: &
         'penetration_err', 'pmax_err', 'area_err', 'ymin_err_mm', 'ymax_err_mm']
 
-    !> A contact whose answer is known.
-    type, extends(contact_case_t) :: known_t
-        character(len=:), allocatable :: set  !! where it comes from
-        character(len=:), allocatable :: name !! its name there
-        type(normal_result_t) :: truth
-    end type known_t
-
     !> What solves.
     type :: bench_t
         type(csv_writer_t) :: writer
@@ -62,7 +54,7 @@ contains
         character(len=*), intent(in) :: folder !! with the contacts
 
         type(bench_t), allocatable :: bench
-        type(known_t), allocatable :: contacts(:)
+        type(bench_case_t), allocatable :: contacts(:)
 
         call read_contacts(folder, contacts)
         call begin(bench, file, 'CONTACT on 0.1 mm, area extrapolated')
@@ -77,7 +69,7 @@ contains
         integer, intent(in) :: most_strips     !! no larger number of strips
 
         type(bench_t), allocatable :: bench
-        type(known_t), allocatable :: contacts(:)
+        type(bench_case_t), allocatable :: contacts(:)
 
         call read_contacts(folder, contacts)
         call begin(bench, file, integer_text(finest) // ' strips for the shifts, Hertz for the ' &
@@ -95,7 +87,7 @@ contains
         character(len=*), intent(in) :: folder !! with the 20 contacts
 
         type(bench_t), allocatable :: bench
-        type(known_t), allocatable :: contacts(:)
+        type(bench_case_t), allocatable :: contacts(:)
         type(status_t) :: status
         integer :: kind
 
@@ -131,26 +123,17 @@ contains
     !> The 20 contacts, judged by CONTACT.
     subroutine read_contacts(folder, contacts)
         character(len=*), intent(in) :: folder
-        type(known_t), allocatable, intent(out) :: contacts(:)
+        type(bench_case_t), allocatable, intent(out) :: contacts(:)
 
-        type(bench_case_t), allocatable :: cases(:)
         type(status_t) :: status
-        integer :: i
 
-        call read_bench_cases(folder, cases, status)
+        call read_bench_cases(folder, contacts, status)
         call fail_on_error(status)
-        allocate (contacts(size(cases)))
-        do i = 1, size(cases)
-            contacts(i)%contact_case_t = cases(i)%contact_case_t
-            contacts(i)%set = 'contacts'
-            contacts(i)%name = cases(i)%name
-            contacts(i)%truth = cases(i)%truth
-        end do
     end subroutine read_contacts
 
     !> Ellipses of many proportions under one load, judged by Hertz.
     subroutine make_ellipses(contacts)
-        type(known_t), allocatable, intent(out) :: contacts(:)
+        type(bench_case_t), allocatable, intent(out) :: contacts(:)
 
         real(wp), parameter :: ratios(12) = [0.01_wp, 0.02_wp, 0.05_wp, 0.1_wp, 0.2_wp, 0.5_wp, &
                                              1.0_wp, 2.0_wp, 5.0_wp, 10.0_wp, 20.0_wp, 50.0_wp]
@@ -171,7 +154,7 @@ contains
     !> 2 or 6 mm wide, with edges rounded by 80 or 20 mm. Each under two loads.
     subroutine make_shapes(kind, contacts)
         integer, intent(in) :: kind
-        type(known_t), allocatable, intent(out) :: contacts(:)
+        type(bench_case_t), allocatable, intent(out) :: contacts(:)
 
         character(len=*), parameter :: sets(2) = [character(len=9) :: 'kinks', 'flat_tops']
         real(wp), parameter :: loads(2) = [2.0e4_wp, 1.0e5_wp]
@@ -218,7 +201,7 @@ contains
     !> Judge contacts by many strips; those that cannot be solved so are left out, and named.
     subroutine judge_by_strips(bench, contacts, strips)
         type(bench_t), intent(inout) :: bench
-        type(known_t), allocatable, intent(inout) :: contacts(:)
+        type(bench_case_t), allocatable, intent(inout) :: contacts(:)
         integer, intent(in) :: strips
 
         type(status_t) :: status
@@ -238,7 +221,7 @@ contains
     !> All contacts by all numbers of strips.
     subroutine try_strips(bench, contacts, strip_counts)
         type(bench_t), intent(inout) :: bench
-        type(known_t), intent(in) :: contacts(:)
+        type(bench_case_t), intent(in) :: contacts(:)
         integer, intent(in) :: strip_counts(:)
 
         type(normal_result_t) :: result
@@ -266,7 +249,7 @@ contains
     !> The same by the lattice; its contact is the rectangles of its strips.
     subroutine try_lattice(bench, contacts)
         type(bench_t), intent(inout) :: bench
-        type(known_t), intent(in) :: contacts(:)
+        type(bench_case_t), intent(in) :: contacts(:)
 
         type(gap_curve_t) :: curve
         type(normal_result_t) :: result
@@ -305,7 +288,7 @@ contains
     !> The row of a solution, and its errors.
     subroutine put_errors(bench, contact, method, strips, result, status, errors)
         type(bench_t), intent(inout) :: bench
-        type(known_t), intent(in) :: contact
+        type(bench_case_t), intent(in) :: contact
         character(len=*), intent(in) :: method, strips
         type(normal_result_t), intent(in) :: result
         type(status_t), intent(in) :: status

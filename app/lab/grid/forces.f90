@@ -10,13 +10,12 @@
 module faststrip_lab_grid_forces
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_files_csv, only: csv_table_t, read_csv, csv_writer_t, put_comment, put_header, &
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, &
                                   put_cell, put_cells, end_row
-    use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_material, only: material_t
+    use faststrip_base_text, only: integer_text
     use faststrip_normal_simple_hertz, only: hertz_strips
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, read_ellipse_cases, &
-                                        read_columns
+                                        read_scene_cases
     use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: normal_hertz, method_name_length
@@ -26,7 +25,6 @@ module faststrip_lab_grid_forces
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_lab_force_laws, only: tangential_methods => force_laws
     use faststrip_lab_pressures, only: solve_pressures
-    use faststrip_lab_random_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
     private
 
@@ -36,13 +34,6 @@ module faststrip_lab_grid_forces
     integer, parameter :: n_errors = 6
     ! The reference has the power of a contact that slides little with few digits.
     real(wp), parameter :: smallest_share = 0.05_wp
-
-    !> What CONTACT finds.
-    type :: reference_t
-        real(wp) :: size = 0.0_wp                             ! mm
-        real(wp) :: forces(3) = 0.0_wp                        ! Fx, Fy, N, Mz, N mm
-        real(wp) :: stick = 0.0_wp
-    end type reference_t
 
     !> Errors of one set, summed up by group and method.
     type :: tally_t
@@ -61,13 +52,13 @@ contains
         character(len=*), intent(in) :: folder !! with CONTACT's results
         character(len=*), intent(in) :: scenes !! CSV of the contacts of many kinds
 
+        type(bench_case_t), allocatable :: cases(:)
         type(csv_writer_t) :: writer
-        type(csv_table_t) :: table
         type(tally_t) :: tally
         type(status_t) :: status
 
         ! Read before anything is written.
-        call read_csv(scenes, table, status)
+        call read_scene_cases(scenes, cases, status)
         call fail_on_error(status)
         call begin_table(writer, file)
         call put_comment(writer, 'errors against extrapolated references: forces in % of mu N, ' &
@@ -79,7 +70,8 @@ contains
         call tell('Hertz contacts', tally)
         call compare_shifts(folder, 'B', writer, tally)
         call compare_shifts(folder, 'A', writer, tally)
-        call compare_scenes(table, writer, tally)
+        call compare_by_strips(cases, 'scenes', writer, tally)
+        call total_group(tally)
         call tell('scenes', tally)
         call end_table(writer)
     end subroutine bench_forces
@@ -116,15 +108,13 @@ contains
                 contact%estimate = .false.
                 call hertz_strips(hertz, contact%methods%strips_per_patch, workspace%strips, status)
                 call fail_on_error(status)
-                call compare(workspace, contact, reference_t(sqrt(case%a*case%b), case%forces, &
-                                                             case%stick_fraction), &
-                             'hertz', case%name, i, writer, tally)
+                call compare(workspace, contact, case, 'hertz', integer_text(i), writer, tally)
             end associate
         end do
         call total_group(tally)
     end subroutine compare_hertz
 
-    !> The paper's contacts, the normal problem by strips and by Hertz.
+    !> The paper's contacts.
     subroutine compare_shifts(folder, signs, writer, tally)
         character(len=*), intent(in) :: folder
         character(len=1), intent(in) :: signs ! of the creepages
@@ -132,83 +122,59 @@ contains
         type(tally_t), intent(out) :: tally
 
         type(bench_case_t), allocatable :: cases(:)
-        type(contact_case_t) :: contact
-        type(workspace_t) :: workspace
-        type(contact_result_t) :: figures
         type(status_t) :: status
-        integer :: i
 
-        tally = tally_t()
         call read_bench_cases(folder, cases, status, signs)
         call fail_on_error(status)
-        do i = 1, size(cases)
-            contact = cases(i)%contact_case_t
-            contact%material = material_t(209920.0_wp, 209920.0_wp, 0.28_wp, 0.28_wp)
-            contact%mu = 0.3_wp
-            contact%estimate = .false.
-            call solve_pressures(workspace, contact, figures, status)
-            if (is_error(status)) call fail_on_error(status)
-            call compare(workspace, contact, &
-                         reference_t(sqrt(cases(i)%truth%area/pi), cases(i)%forces, &
-                                     cases(i)%stick_fraction), &
-                         's1002_uic60_' // signs, 'all', i, writer, tally)
-        end do
+        call compare_by_strips(cases, 's1002_uic60_' // signs, writer, tally)
         call tell('s1002_uic60_' // signs, tally)
     end subroutine compare_shifts
 
-    !> Contacts of many kinds.
-    subroutine compare_scenes(table, writer, tally)
-        type(csv_table_t), intent(in) :: table
+    !> A set of contacts, the normal problem by strips.
+    subroutine compare_by_strips(cases, set, writer, tally)
+        type(bench_case_t), intent(inout) :: cases(:)
+        character(len=*), intent(in) :: set
         type(csv_writer_t), intent(inout) :: writer
         type(tally_t), intent(out) :: tally
 
-        character(len=*), parameter :: names(9) = [character(len=16) :: 'number', 'cksi', 'ceta', &
-            'cphi_rad_per_mm', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'area_mm2', &
-            'stick_fraction']
         type(workspace_t) :: workspace
         type(contact_result_t) :: figures
-        type(reference_t) :: reference
-        type(reference_scene_t) :: scene
         type(status_t) :: status
-        real(wp), allocatable :: v(:, :)
+        character(len=:), allocatable :: number
         integer :: i
 
         tally = tally_t()
-        call read_columns(table, names, v, status)
-        call fail_on_error(status)
-        do i = 1, table%n_rows
-            call make_reference_scene(nint(v(i, 1)), scene)
-            scene%creepage = creepage_t(v(i, 2), v(i, 3), v(i, 4))
-            scene%estimate = .false.
-            call solve_pressures(workspace, scene, figures, status)
-            if (is_error(status)) call fail_on_error(status)
-            reference = reference_t(sqrt(v(i, 8)/pi), v(i, 5:7), v(i, 9))
-            call compare(workspace, scene%contact_case_t, reference, 'scenes', &
-                         trim(merge('even', 'odd ', modulo(scene%number, 2) == 0)), scene%number, &
-                         writer, tally)
+        do i = 1, size(cases)
+            cases(i)%estimate = .false.
+            call solve_pressures(workspace, cases(i), figures, status)
+            call fail_on_error(status)
+            number = integer_text(i)
+            ! Scenes are called by their numbers.
+            if (set == 'scenes') number = cases(i)%name
+            call compare(workspace, cases(i)%contact_case_t, cases(i), set, number, writer, tally)
         end do
-        call total_group(tally)
-    end subroutine compare_scenes
+    end subroutine compare_by_strips
 
     !> All methods on one contact.
-    subroutine compare(workspace, contact, reference, set, group, number, writer, tally)
+    subroutine compare(workspace, contact, reference, set, number, writer, tally)
         type(workspace_t), intent(inout) :: workspace ! with a normal solution
         type(contact_case_t), intent(in) :: contact ! what was solved
-        type(reference_t), intent(in) :: reference
-        character(len=*), intent(in) :: set, group
-        integer, intent(in) :: number
+        type(bench_case_t), intent(in) :: reference
+        character(len=*), intent(in) :: set, number
         type(csv_writer_t), intent(inout) :: writer
         type(tally_t), intent(inout) :: tally
 
         type(contact_case_t) :: case
         type(contact_result_t) :: found
         type(status_t) :: status
-        real(wp) :: error(n_errors), force, power
+        real(wp) :: error(n_errors), force, power, size_of
         logical :: counts(n_errors)
         integer :: m, j
 
         case = contact
         force = contact%mu*contact%load
+        size_of = sqrt(reference%truth%area/pi)
+        if (reference%a > 0.0_wp) size_of = sqrt(reference%a*reference%b)
         associate (creepage => contact%creepage)
             power = -dot_product(reference%forces, [creepage%cksi, creepage%ceta, creepage%cphi])
         end associate
@@ -219,21 +185,21 @@ contains
             associate (result => found%tangential)
                 error(:2) = ([result%fx, result%fy] - reference%forces(:2))/force
                 error(3) = hypot(error(1), error(2))
-                error(4) = (result%mz - reference%forces(3))/(force*reference%size)
+                error(4) = (result%mz - reference%forces(3))/(force*size_of)
                 error(5) = result%friction_power/power - 1.0_wp
-                error(6) = result%stick_fraction - reference%stick
+                error(6) = result%stick_fraction - reference%stick_fraction
             end associate
             error = 100.0_wp*error
             counts = .true.
             counts(5) = norm2(reference%forces(:2)) > smallest_share*force
             counts(6) = tangential_methods(m)%gives_stick
             call put_cell(writer, set)
-            call put_cell(writer, group)
+            call put_cell(writer, reference%group)
             call put_cell(writer, number)
             call put_cell(writer, trim(tangential_methods(m)%name))
             call put_cells(writer, error, counts)
             call end_row(writer)
-            call add_errors(tally, group, m, abs(error), counts)
+            call add_errors(tally, reference%group, m, abs(error), counts)
         end do
     end subroutine compare
 

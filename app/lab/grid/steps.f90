@@ -17,9 +17,8 @@ module faststrip_lab_grid_steps
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
-    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
+    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, read_scene_cases
     use faststrip_lab_grid_normal, only: gap_of_shift
-    use faststrip_lab_grid_trade_cases, only: trade_case_t, read_scene_cases
     use faststrip_command_program_clock, only: cpu_microseconds, spread_text
     use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     implicit none
@@ -78,7 +77,7 @@ contains
 
         type(bench_t) :: bench
         type(bench_case_t), allocatable :: cases(:)
-        type(trade_case_t), allocatable :: others(:)
+        type(bench_case_t), allocatable :: others(:)
         type(step_t), allocatable :: history(:)
         type(profile_t) :: wheel, rail
         type(csv_writer_t) :: writer

@@ -24,13 +24,17 @@ module faststrip_lab_grid_trade
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: contact_result_t, times_t
     use faststrip_lab_grid_method_list, only: method_entry_t, read_method_list
-    use faststrip_lab_grid_trade_cases, only: trade_case_t, read_wheelset_cases, read_hertz_cases, &
-                                              read_scene_cases, n_figures, figure_names
+    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, read_ellipse_cases, &
+                                        read_scene_cases
     implicit none
     private
 
     public :: bench_trade
 
+    ! Figures a contact is judged by.
+    integer, parameter :: n_figures = 6
+    character(len=*), parameter :: figure_names(n_figures) = [character(len=11) :: &
+        'penetration', 'pmax', 'area', 'Fx', 'Fy', 'Mz']
     integer, parameter :: most_repeats = 25
     integer, parameter :: many_strips = 50
     ! A method has been timed enough after this, us.
@@ -47,15 +51,15 @@ contains
         logical, intent(in) :: quick                 !! fewer methods and contacts
 
         type(method_entry_t), allocatable :: entries(:)
-        type(trade_case_t), allocatable :: wheelset(:), hertz(:), scenes(:)
+        type(bench_case_t), allocatable :: wheelset(:), hertz(:), scenes(:)
         type(csv_writer_t) :: writer
         type(status_t) :: status
         integer :: i
 
         call read_method_list(methods_file, entries)
-        call read_wheelset_cases(folder, wheelset, status)
+        call read_bench_cases(folder, wheelset, status)
         call fail_on_error(status)
-        call read_hertz_cases(folder, hertz, status)
+        call read_ellipse_cases(folder, hertz, status)
         call fail_on_error(status)
         call read_scene_cases(scenes_file, scenes, status)
         call fail_on_error(status)
@@ -67,7 +71,7 @@ contains
                                  [character(len=22) :: 'err_' // figure_names], &
                                  [character(len=22) :: cpu_columns], &
                                  [character(len=22) :: solution_columns]])
-        call trade_influence(writer, wheelset(:: merge(5, 1, quick)))
+        call trade_influence(writer, wheelset(:: merge(5, 1, quick)), n_figures)
         do i = 1, size(entries)
             call progress('methods', i, size(entries))
             if (quick .and. entries(i)%when /= 'always') cycle
@@ -100,7 +104,7 @@ contains
     subroutine run_entry(writer, entry, cases)
         type(csv_writer_t), intent(inout) :: writer
         type(method_entry_t), intent(in) :: entry
-        type(trade_case_t), intent(in) :: cases(:)
+        type(bench_case_t), intent(in) :: cases(:)
 
         type(solver_t), pointer :: solver
         type(contact_case_t) :: contact
@@ -167,17 +171,17 @@ contains
 
     !> Errors in the order of `figure_names`.
     pure function relative_errors(case, solution) result(errors)
-        type(trade_case_t), intent(in) :: case
+        type(bench_case_t), intent(in) :: case
         type(contact_result_t), intent(in) :: solution
         real(wp) :: errors(n_figures)
 
         real(wp) :: bound
 
         errors(1:3) = [solution%normal%penetration, solution%normal%pmax, solution%normal%area] &
-                      /case%truth(1:3) - 1.0_wp
+                      /[case%truth%penetration, case%truth%pmax, case%truth%area] - 1.0_wp
         bound = case%mu*case%load
         errors(4:6) = ([solution%tangential%fx, solution%tangential%fy, solution%tangential%mz] &
-                       - case%truth(4:6))/bound
-        errors(6) = errors(6)/sqrt(case%truth(3)/pi)
+                       - case%forces)/bound
+        errors(6) = errors(6)/sqrt(case%truth%area/pi)
     end function relative_errors
 end module faststrip_lab_grid_trade

@@ -15,7 +15,7 @@ module faststrip_lab_promises_contacts
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
-    use faststrip_lab_grid_trade_cases, only: trade_case_t, read_hertz_cases
+    use faststrip_lab_grid_cases, only: bench_case_t, read_ellipse_cases
     use faststrip_lab_checkout, only: in_checkout
     use faststrip_lab_random_numbers, only: random_t, start_random, uniform, log_uniform, chance
     use faststrip_lab_random_promise_gaps, only: draw_promise_gap, gap_kinds
@@ -47,7 +47,7 @@ module faststrip_lab_promises_contacts
 
     !> Contacts that CONTACT has solved.
     type :: ellipses_t
-        type(trade_case_t), allocatable :: cases(:)
+        type(bench_case_t), allocatable :: cases(:)
     end type ellipses_t
 
 contains
@@ -57,7 +57,7 @@ contains
         type(ellipses_t), intent(out) :: ellipses
         type(status_t), intent(out) :: status !! of the reader
 
-        call read_hertz_cases(in_checkout('reference/contact'), ellipses%cases, status)
+        call read_ellipse_cases(in_checkout('reference/contact'), ellipses%cases, status)
     end subroutine read_ellipses
 
     !> A contact, if it is drawn but for its creepages.

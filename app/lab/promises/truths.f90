@@ -151,7 +151,10 @@ contains
         type(truth_record_t) :: own
 
         own = record
-        record%figures(:6) = ellipses%cases(record%number)%truth
+        associate (case => ellipses%cases(record%number))
+            record%figures(:6) = [case%truth%penetration, case%truth%pmax, case%truth%area, &
+                                  case%forces]
+        end associate
         record%doubts(:3) = 0.0_wp
         associate (units => figure_units(record))
             record%doubts(4:6) = abs(record%figures(4:6) - own%figures(4:6))/units(4:6)

@@ -123,7 +123,7 @@ contains
                                         most_elements, grid, status)
                     call fail_on_error(status)
                     do k = 1, size(schemes)
-                        call compare('hertz', case, case%name // ' a/b ' // &
+                        call compare('hertz', case, case%group // ' a/b ' // &
                                      trim(number_text(case%a/case%b)), edges_sampled, k, grid, &
                                      tang, groups(k), writer)
                     end do

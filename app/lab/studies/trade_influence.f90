@@ -23,7 +23,7 @@ module faststrip_lab_studies_trade_influence
     use faststrip_lab_studies_polynomials, only: power_of_ten_influence
     use faststrip_command_program_clock, only: cpu_microseconds, spread_of, spread_names
     use faststrip_command_program_console, only: fail_on_error
-    use faststrip_lab_grid_trade_cases, only: trade_case_t, n_figures
+    use faststrip_lab_grid_cases, only: bench_case_t
     implicit none
     private
 
@@ -49,9 +49,10 @@ module faststrip_lab_studies_trade_influence
 contains
 
     !> Rows of stage `influence` for a list of contacts.
-    subroutine trade_influence(writer, cases)
+    subroutine trade_influence(writer, cases, n_figures)
         type(csv_writer_t), intent(inout) :: writer !! an open file, at the start of a row
-        type(trade_case_t), intent(in) :: cases(:)  !! contacts
+        type(bench_case_t), intent(in) :: cases(:)  !! contacts
+        integer, intent(in) :: n_figures            !! columns of errors, >= 2
 
         type(table_row_t) :: rows(0:strips_across - 1, size(refit_degrees))
         type(lattice_t) :: lattice
@@ -110,7 +111,7 @@ contains
 
     !> Equal strips over the largest patch; squared lengths between those of the solution.
     subroutine make_lattice(case, lattice)
-        type(trade_case_t), intent(in) :: case
+        type(bench_case_t), intent(in) :: case
         type(lattice_t), intent(out) :: lattice
 
         type(workspace_t) :: workspace
