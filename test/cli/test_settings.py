@@ -33,8 +33,10 @@ def value_for(row):
     """A value that it may be, and not the one it is where nothing is said."""
     if row["name"] in VALUES:
         return VALUES[row["name"]]
-    whole = re.search(r"whole number from (\d+) to (\d+)", row["may_be"])
-    return str(min(11, int(whole[2]))) if whole else "11" if "whole" in row["may_be"] else "0.4"
+    if "whole" not in row["may_be"]:
+        return "0.4"
+    most = re.search(r"whole number from 1 to (\d+)", row["may_be"])
+    return str(min(11, int(most[1]))) if most else "11"
 
 
 class Settings(ProgramTest):

@@ -196,9 +196,10 @@ class Tools(unittest.TestCase):
     def test_a_page_shows_its_pictures_and_names_its_files(self):
         text = ("<!-- picture: out/a.png Two\nwords. -->\n\n<!-- file: a.nml -->\n```text\n"
                 "&contact\n```\n")
-        self.assertEqual(document.for_sphinx(text, "docs/start.md"),
-                         "```{figure} /out/a.png\nTwo words.\n```\n\n`a.nml`:\n\n```text\n"
-                         "&contact\n```\n")
+        self.assertEqual(
+            document.for_sphinx(text, "docs/start.md"),
+            "```{figure} /out/a.png\n:alt: Two words.\n\nTwo words.\n```\n\n`a.nml`:\n\n"
+            "```text\n&contact\n```\n")
 
     def test_the_first_page_has_the_navigation(self):
         text = document.for_sphinx("# faststrip\n", "README.md")

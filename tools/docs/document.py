@@ -150,8 +150,11 @@ def make_pictures(text, folder):
 
 def for_sphinx(text, source):
     """A page with its pictures and names of files in sight; the first has the navigation."""
-    text = PICTURE.sub(lambda match: f"```{{figure}} /{match['file']}\n"
-                       f"{' '.join(match['words'].split())}\n```", text)
+    def figure(match):
+        words = " ".join(match["words"].split())
+        return f"```{{figure}} /{match['file']}\n:alt: {words}\n\n{words}\n```"
+
+    text = PICTURE.sub(figure, text)
     text = FILE.sub(r"`\g<name>`:\n", text)
     if source != "README.md":
         return text

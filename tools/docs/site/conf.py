@@ -6,7 +6,7 @@ from pygments.lexers.fortran import FortranFixedLexer
 from pygments.lexers.special import TextLexer
 
 project = "faststrip"
-copyright = "the faststrip developers"  # pylint: disable=redefined-builtin
+author = copyright = "the faststrip developers"
 extensions = ["myst_parser"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 6
