@@ -133,15 +133,30 @@ contains
     end function total
 end module caller
 """
+SUPPORT = """\
+module support
+    implicit none
+    private
+
+    public :: two
+
+contains
+
+    integer function two()
+        two = 2
+    end function two
+end module support
+"""
 FORTRAN_TEST = """\
 module test_caller
     use funit
     use caller, only: total
+    use support, only: two
     implicit none
 contains
     @test
     subroutine seven()
-        @assertEqual(7, total(2))
+        @assertEqual(7, total(two()))
     end subroutine seven
 end module test_caller
 """
@@ -301,6 +316,7 @@ class Verdicts(unittest.TestCase):
         self.write("src/faststrip/arithmetic.f90", ARITHMETIC)
         self.write("src/faststrip/caller.f90", CALLER)
         self.write("test/pf/numerics/test_caller.pf", FORTRAN_TEST)
+        self.write("test/pf/support/two.f90", SUPPORT)
         for name in ("tools/building/pf2f90.py", "test/funit/funit.f90",
                      "test/funit/funit_runner.f90"):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)

@@ -77,25 +77,24 @@ ATTEMPTS = 3
 TIME_OUT = "time-out"
 
 # The tests that a room's mutants meet first: a filter of the Fortran tests, or files of Python.
-FACES = ["test/embed/test_values.py", "test/embed/test_figures.py", "test/embed/test_python.py",
-         "test/embed/test_callers.py", "test/embed/test_legacy.py",
-         "test/embed/test_wheelsets.py"]
+INTERFACES = [f"test/embed/test_{name}.py" for name in (
+    "values", "figures", "python", "callers", "legacy", "wheelsets")]
 FORTRAN_ROOMS = ("base", "numerics", "lookup", "influence", "geometry", "normal", "tangential",
                  "contact", "wheelset", "files", "kalker", "tables")
 OWN_STAGES = {
     **{room: [("fortran", f"{room}/")] for room in FORTRAN_ROOMS},
-    "interop": [("installed", FACES)],
+    "interop": [("installed", INTERFACES)],
     "command": [("python", ["test/cli"])],
     "netcdf": [("python", ["test/cli/test_netcdf.py"])],
     "tabulate": [("python", ["test/cli/test_lookup.py", "test/cli/test_lookup_wheel.py"])],
     "lab": [("python", ["test/cli/test_promises.py", "test/cli/test_force_data.py"])],
-    "python": [("installed", [*FACES[:3], FACES[-1]])],
+    "python": [("installed", [*INTERFACES[:3], INTERFACES[-1]])],
     "plots": [("python", ["test/plots"])],
     "tools": [("python", ["test/tools/test_blocks.py"])],
 }
 TABLES = ["test/tools/test_generated_modules.py"]
-ALL_STAGES = [("fortran", ""), ("python", TABLES), ("python", ["test/cli"]), ("installed", FACES),
-              ("python", ["test/plots"])]
+ALL_STAGES = [("fortran", ""), ("python", TABLES), ("python", ["test/cli"]),
+              ("installed", INTERFACES), ("python", ["test/plots"])]
 # What is linked of what: the beginnings of the names of its sources.
 PACKAGES = ("src/faststrip/", "src/files/", "src/kalker/", "src/tables/")
 TESTS = (*PACKAGES, "test/", "build/tests/")
@@ -315,7 +314,8 @@ class Base:
         generated.parent.mkdir(parents=True, exist_ok=True)
         call([self.python, "tools/building/pf2f90.py", "--target", generated.parent], self.folder)
         self.libraries = [f"-l{name}" for name in linked_libraries(self.folder, self.names)]
-        paths = [path for place in ("src", "app", "test", generated.parent)
+        # What lies in test/pf is among what was generated of it.
+        paths = [path for place in ("src", "app", "test/funit", generated.parent)
                  for suffix in ("f90", "c") for path in (self.folder / place).rglob(f"*.{suffix}")]
         levels = in_order([Source(self.folder, path.relative_to(self.folder).as_posix())
                            for path in sorted(paths)])
