@@ -83,7 +83,8 @@ contains
         end do
     end subroutine solve_wheel_at
 
-    !> How wrong the last solution of a wheel is; too large errors are named in its status.
+    !> How wrong the last solution of a wheel is; too large errors are named in the statuses of its
+    !> contacts, and by `name_pressures` in its own.
     subroutine estimate_wheel(model, workspace, wheel)
         type(wheelset_model_t), intent(in) :: model         !! made
         type(wheel_workspace_t), intent(in) :: workspace    !! of the solution
@@ -101,12 +102,12 @@ contains
                 case%penetration = figures%normal%penetration
                 call take_motion(model, contact, case)
                 call estimate_contact(workspace%contact(i), case, figures, contact%status)
-                if (worse(contact%status, wheel%status)) wheel%status = contact%status
             end associate
         end do
     end subroutine estimate_wheel
 
-    !> Name pressures of a wheel above the limit that the user has set.
+    !> Name pressures of a wheel above the limit that the user has set; its status becomes the worst
+    !> of its contacts'.
     pure subroutine name_pressures(limit, wheel)
         real(wp), intent(in) :: limit                !! MPa; 0: none
         type(wheel_result_t), intent(inout) :: wheel !! solved; its statuses get `st_beyond_yield`
