@@ -11,7 +11,7 @@ module faststrip_influence_center_column
                                               near_center_value_lanes, far_center_lanes, &
                                               far_center_value_lanes
     use faststrip_influence_offcentre, only: strip_influence_gradient
-    use faststrip_influence_plain_sizes, only: is_plain, least_size, largest_size
+    use faststrip_influence_plain_sizes, only: is_plain, least_plain, largest_plain
     implicit none
     private
 
@@ -128,7 +128,7 @@ contains
         do k = 1, n
             ! Written out: a call of `is_plain` for each point costs a column 6 %.
             inside = .false.
-            if (plain .and. ieee_is_finite(y(k))) inside = abs(y(k)) <= largest_size
+            if (plain .and. ieee_is_finite(y(k))) inside = abs(y(k)) <= largest_plain
             if (inside) then
                 c1 = (y_left - y(k))*per_length
                 c2 = (y_right - y(k))*per_length
@@ -140,7 +140,7 @@ contains
                 if (c1 >= c_large .and. c2 > c1) then
                     call put_point(k, c1, c2, width, far)
                     cycle
-                else if (c2 <= c_small .and. c2 > max(c1, least_size)) then
+                else if (c2 <= c_small .and. c2 > max(c1, least_plain)) then
                     if (c1 >= 0.0_wp) then
                         call put_point(k, c1, c2, width, near)
                         cycle

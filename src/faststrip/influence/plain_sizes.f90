@@ -6,13 +6,13 @@ module faststrip_influence_plain_sizes
     implicit none
     private
 
-    public :: is_plain, least_size, largest_size
+    public :: is_plain, least_plain, largest_plain
 
     !> Lengths in mm between which columns divide without a second thought. Contacts
     !> have 1e-3 to 1e3; what lies outside goes to the scalar procedures, at their cost.
-    real(wp), parameter :: least_size = 1.0_wp/beyond_all
+    real(wp), parameter :: least_plain = 1.0_wp/beyond_all
     !> The same, above.
-    real(wp), parameter :: largest_size = beyond_all
+    real(wp), parameter :: largest_plain = beyond_all
 
 contains
 
@@ -23,7 +23,7 @@ contains
 
         is_plain = .false.
         if (.not. (ieee_is_finite(half_length) .and. ieee_is_finite(place))) return
-        is_plain = half_length >= least_size .and. half_length <= largest_size &
-                   .and. place <= largest_size
+        is_plain = half_length >= least_plain .and. half_length <= largest_plain &
+                   .and. place <= largest_plain
     end function is_plain
 end module faststrip_influence_plain_sizes

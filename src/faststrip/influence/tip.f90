@@ -19,7 +19,7 @@ module faststrip_influence_tip
     use faststrip_influence_angle_rules, only: coarse
     use faststrip_influence_angle_sums, only: angle_moments, least_near
     use faststrip_influence_four_lanes, only: are_lanes_wanted
-    use faststrip_influence_plain_sizes, only: least_size, largest_size
+    use faststrip_influence_plain_sizes, only: least_plain, largest_plain
     implicit none
     private
 
@@ -99,8 +99,8 @@ contains
 
         found = .false.
         own_tip = .false.
-        if (min(half_length, abs(x)) > least_size &
-            .and. max(half_length, abs(x), abs(y_left), abs(y_right), abs(y)) < largest_size) then
+        if (min(half_length, abs(x)) > least_plain &
+            .and. max(half_length, abs(x), abs(y_left), abs(y_right), abs(y)) < largest_plain) then
             per_length = 1.0_wp/half_length
             xs = abs(x)*per_length
             cl = (y_left - y)*per_length

@@ -29,6 +29,9 @@ module faststrip_numerics_spline
 
 contains
 
+    ! Numbers beyond `largest_size`, and knots nearer to each other than its inverse, are refused:
+    ! with them no intermediate result can overflow.
+
     !> Length of the workspace `spline_setup` needs for n points.
     pure integer function spline_work_size(n)
         integer, intent(in) :: n !! number of points

@@ -30,7 +30,7 @@
 module faststrip_influence_offcentre
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: beyond_all
+    use faststrip_base_limits, only: nothing
     use faststrip_influence_closed, only: strip_influence_edges, strip_influence_center_gradient
     use faststrip_influence_closed_coefficients, only: atanh_last
     use faststrip_influence_angle_rules, only: cosine
@@ -187,8 +187,9 @@ contains
         xs = x/size
         cl = el/size
         sl = hypot(xs, cl)
-        beyond = er/beyond_all > size
-        if (size < 1.0_wp) beyond = er > beyond_all*size
+        ! Edges beyond are infinitely far.
+        beyond = er*nothing > size
+        if (size < 1.0_wp) beyond = er > size/nothing
         if (beyond) then
             ker = log_2 + log(er) - log(size) - log(cl + sl)
             m(2) = -xs/(sl*(cl + sl))
