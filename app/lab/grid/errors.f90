@@ -205,17 +205,17 @@ contains
         integer, intent(in) :: strips
 
         type(status_t) :: status
-        logical :: known(size(contacts))
+        logical :: is_known(size(contacts))
         integer :: i
 
         do i = 1, size(contacts)
             call progress('contacts', i, size(contacts))
             call solve_by_strips(bench%workspace, contacts(i), strips, contacts(i)%truth, status)
-            known(i) = status%code == 0
-            if (.not. known(i)) call note(contacts(i)%name // ' has no truth: ' &
-                                          // trim(status%message))
+            is_known(i) = status%code == 0
+            if (.not. is_known(i)) call note(contacts(i)%name // ' has no reference: ' &
+                                             // trim(status%message))
         end do
-        contacts = pack(contacts, known)
+        contacts = pack(contacts, is_known)
     end subroutine judge_by_strips
 
     !> All contacts by all numbers of strips.
