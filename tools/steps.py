@@ -606,8 +606,11 @@ def test(*words):
         counts.stage("fortran", "Fortran tests, of the release", quick_fortran_tests)
         counts.stage("python", "tests of the interfaces", quick_python_tests)
     else:
-        counts.stage("fortran", "Fortran tests, warnings as errors and traps on", fortran_tests)
-        counts.stage("release", "release build", release_build)
+        # Side by side: towards its end a build has one core idle that waits for a module.
+        with concurrent.futures.ThreadPoolExecutor(1) as beside:
+            programs = beside.submit(build)
+            counts.stage("fortran", "Fortran tests, warnings as errors and traps on", fortran_tests)
+            counts.stage("release", "release build", lambda _: (0, programs.result() or ""))
         counts.stage("python", "Python tests", python_tests)
     if counts.passed + counts.failed == 0:
         print("no test ran")

@@ -11,6 +11,7 @@ import tempfile
 import tomllib
 import unittest
 
+import steps
 from installed import ROOT, readme_blocks
 
 FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
@@ -81,11 +82,12 @@ class Dependency(unittest.TestCase):
         (self.folder / "linked").unlink(missing_ok=True)
         kept = {name: os.environ[name] for name in ("HOME", "TMPDIR") if name in os.environ}
         kept["PATH"] = f"{self.folder}/bin{os.pathsep}{os.environ['PATH']}"
-        # fpm has another folder for other libraries.
-        kept["FASTSTRIP_TWIN"] = str(self.host / "build")
+        # The programs' objects are the core's too; and fpm has another folder for other libraries.
+        kept["FASTSTRIP_TWIN"] = os.pathsep.join(
+            str(path) for path in (ROOT / "app" / "build", self.host / "build"))
         done = subprocess.run(
             [pathlib.Path(sys.executable).parent / "fpm", "build", "--compiler", "gfortran",
-             "--flag", f"-O0 -frecursive -fopenmp-simd -B{self.folder}/bin"],
+             "--flag", steps.PROGRAM_FLAGS, "--link-flag", f"-B{self.folder}/bin"],
             cwd=self.host, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, encoding="utf-8", env=kept, timeout=6000, check=False)
         return done.returncode, done.stdout

@@ -9,8 +9,8 @@ compilation, and the module files that this wrote are still there. A comment or 
 procedure leaves the module file as it is, so that the users of the module are kept; another
 interface does not. What the object was made from stands beside it in OBJECT.seen.
 
-FASTSTRIP_TWIN names a folder in which fpm has built other packages, maybe of the same sources: an
-object that was made of the same there is copied with its module files.
+FASTSTRIP_TWIN names folders, parted as those of PATH, in which fpm has built other packages, maybe
+of the same sources: an object made of the same there is copied with its module files.
 
 Always compiled are sources that include files, submodules, and what is no .f90. Calls that compile
 nothing go to gfortran as they are.
@@ -98,13 +98,12 @@ def other_words(words):
 
 def copy_twin(what, source, made, target, folder):
     """Take an object that was made of the same, its module files and its note; is there one?"""
-    twins = os.environ.get("FASTSTRIP_TWIN")
-    if not twins:
-        return False
     # fpm names objects of other packages by their way there, with dots ahead, and puts module files
     # one folder above.
-    for note in glob.glob(os.path.join(glob.escape(twins), "*", "*", f"*{source}.o.seen"),
-                          include_hidden=True):
+    notes = (note for twin in filter(None, os.environ.get("FASTSTRIP_TWIN", "").split(os.pathsep))
+             for note in glob.glob(os.path.join(glob.escape(twin), "*", "*", f"*{source}.o.seen"),
+                                   include_hidden=True))
+    for note in notes:
         place = os.path.dirname(os.path.dirname(note))
         told, found = read(note), read(note.removesuffix(".seen"))
         if found is None or told != b"%b\n%b" % (what, record(made, [place])):
