@@ -8,7 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { THREADS = 8 };
+#ifndef THREADS
+#define THREADS 8
+#endif
 
 static int contacts;
 static uint64_t *found;
