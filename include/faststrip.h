@@ -341,14 +341,14 @@ int faststrip_hertz(double e_wheel, double e_rail, double nu_wheel, double nu_ra
 int faststrip_kalker(double a_over_b, double nu, double coefficients[4]);
 
 /* The gap of a wheel on a rail, both given by points along the curve, y to the field side, z down,
- * mm, of the wheel from the tape circle. What cannot be touched, overhanging and upright sides, is
- * left out. setup: distance of the flange backs (0: as belongs to the gauge), flange back to tape
- * circle, rolling radius, gauge, its depth below the crown, rail inclination (below), shift of the
- * wheelset to the right, spacing of the gap and its largest height (mm but for the inclination;
- * 1360, 70, 460, 1435, 14, 0, 0, 0.05, 0.6 for standard gauge and a rail as in the track). *n
- * becomes the points of the gap, with 110 those that capacity lacks. contact becomes the contact
- * angle (rad), the rolling radius there, y on the wheel and on the rail (mm), and how many points
- * of the wheel and of the rail were left out. */
+ * mm, of the wheel from the nominal rolling circle. What cannot be touched, overhanging and upright
+ * sides, is left out. setup: distance of the flange backs (0: as belongs to the gauge), flange back
+ * to that circle, rolling radius, gauge, its depth below the crown, rail inclination (below), shift
+ * of the wheelset to the right, spacing of the gap and its largest height (mm but for the
+ * inclination; 1360, 70, 460, 1435, 14, 0, 0, 0.05, 0.6 for standard gauge and a rail as in the
+ * track). *n becomes the points of the gap, with 110 those that capacity lacks. contact becomes the
+ * contact angle (rad), the rolling radius there, y on the wheel and on the rail (mm), and how many
+ * points of the wheel and of the rail were left out. */
 int faststrip_profile_gap(int n_wheel, const double *y_wheel, const double *z_wheel, int n_rail,
                           const double *y_rail, const double *z_rail, const double setup[9],
                           int capacity, int *n, double *y, double *h, double *inv2r,
@@ -369,11 +369,11 @@ int faststrip_profile_gap(int n_wheel, const double *y_wheel, const double *z_wh
  * not fit, as the gauge 1435 and flange backs 1440 apart, are refused by name. */
 typedef struct faststrip_wheelset_setup {
     size_t size;          /* of this struct; set by faststrip_default_wheelset */
-    double radius_right;  /* nominal radius at the tape circle, y = 0 of the wheel's profile */
+    double radius_right;  /* nominal radius, at y = 0 of the wheel's profile */
     double radius_left;
     double back_spacing;  /* distance of the flange backs; 0: that which belongs to the gauge, 1360
                            * to 1435, 1440 to 1520 */
-    double tread_line;    /* flange back to tape circle */
+    double tread_line;    /* flange back to nominal rolling circle */
     double gauge;         /* distance of the gauge faces */
     double gauge_depth;   /* below the crown, where it is measured */
     double rail_distance; /* distance of the origins of the rails' profiles, not the gauge; 0: the
@@ -383,8 +383,8 @@ typedef struct faststrip_wheelset_setup {
 
 /* A profile, also of a left wheel or rail as one of the right side: a name, of wheels s1002, cone20
  * (1:20), cone40, of rails uic60, 60e1, 54e1; or n points along the curve, y to the field side, z
- * down, mm, of the wheel from the tape circle, as faststrip_read_profile reads them from a file.
- * Names may have capital letters. A left one of neither is as the right one. */
+ * down, mm, of the wheel from the nominal rolling circle, as faststrip_read_profile reads them from
+ * a file. Names may have capital letters. A left one of neither is as the right one. */
 typedef struct faststrip_profile {
     const char *name; /* null: by points */
     const double *y;
@@ -442,10 +442,10 @@ typedef struct faststrip_profile_about {
 int faststrip_default_reading(faststrip_reading *reading, size_t length);
 
 /* Read a profile of any format that `faststrip profile` knows: y to the field side, z down, mm, of
- * a wheel from the tape circle, in the order of a faststrip_profile. path is the file's name,
- * reading and about may be null, capacity is the length of y and z; *n becomes the points of the
- * profile, even if these are more (110). text, if not null, says what is wrong, with file, line and
- * value, or what was left out or done. This function reads a file, and allocates. */
+ * a wheel from the nominal rolling circle, in the order of a faststrip_profile. path is the file's
+ * name, reading and about may be null, capacity is the length of y and z; *n becomes the points of
+ * the profile, even if these are more (110). text, if not null, says what is wrong, with file, line
+ * and value, or what was left out or done. This function reads a file, and allocates. */
 int faststrip_read_profile(const char *path, const faststrip_reading *reading, int capacity, int *n,
                            double *y, double *z, faststrip_profile_about *about, char *text,
                            size_t length);

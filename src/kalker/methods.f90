@@ -49,8 +49,8 @@ module faststrip_kalker_methods
     public :: kalker_methods_t, add_kalker, release_kalker
     public :: tang_watch
 
-    ! Tuned [us, 1]: What both cost and how wrong they say they are, by target: forces, pmax,
-    ! penetration, area, power. Origin: medians of 134 contacts of the families of `force-data`.
+    ! Tuned [us, 1]: Costs and error estimates of both, by target: forces, pmax, penetration, area,
+    ! power. Origin: medians of 134 contacts of the families of `force-data`.
     type(others_t), parameter :: expectations(5) = [ &
         others_t(one_us=10.0_wp, one=1.3_wp, order=1.8_wp), &
         others_t(one_us=3.0_wp, over_strips=3.5_wp, order=2.0_wp), &
@@ -260,12 +260,12 @@ contains
         if (is_error(rows)) status = rows
     end subroutine take_rows
 
-    !> How wrong NORM is: known where there were two grids.
+    !> Error estimates of NORM: known where there were two grids.
     subroutine estimate_by_norm(self, workspace, case, result, status)
         class(norm_method_t), intent(in) :: self        !! NORM
         type(workspace_t), intent(in) :: workspace      !! with its solution
         type(contact_case_t), intent(in) :: case        !! what was solved
-        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(contact_result_t), intent(inout) :: result !! its figures; gets their error estimates
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
         result%normal_errors = self%memory%norm%normal_errors
@@ -277,7 +277,7 @@ contains
                                  result%normal_errors%est_err_area, case%resolution_limit, status)
     end subroutine estimate_by_norm
 
-    !> What NORM, and TANG where forces are the target, cost and how wrong they say they are.
+    !> Costs and error estimates of NORM, and of TANG where forces are the target.
     pure type(others_t) function expected_of_norm(self, target) result(others)
         class(norm_method_t), intent(in) :: self !! NORM
         integer, intent(in) :: target            !! one of the `target_` numbers
@@ -332,7 +332,7 @@ contains
         problem%creepage = case%creepage
         problem%friction = case%friction
         problem%options%edges = edges_of_norm
-        call check_softness(case, status)
+        call check_flexibility(case, status)
         if (is_error(status)) return
         associate (grid => memory%norm%grid)
             call memory%watch_tang(count(grid%pressure > 0.0_wp), .true.)
@@ -350,7 +350,7 @@ contains
 
     !> Refuse dissimilar materials with a smaller initial slope: moduli that are lowered for it
     !> would let pressures do more.
-    pure subroutine check_softness(case, status)
+    pure subroutine check_flexibility(case, status)
         type(contact_case_t), intent(in) :: case
         type(status_t), intent(out) :: status
 
@@ -358,15 +358,15 @@ contains
         if (are_alike(case%material) .or. case%friction%slope_factor >= 1.0_wp) return
         call set_status(status, st_bad_argument, 'tang takes no initial_slope_factor for bodies ' &
                         // 'of dissimilar materials')
-    end subroutine check_softness
+    end subroutine check_flexibility
 
-    !> How wrong TANG's forces are, from elements twice as long and wide: a sixth of its time. More
-    !> than the limit is named in the status.
+    !> Error estimates of TANG's forces, from elements twice as long and wide: a sixth of its time.
+    !> More than the limit is named in the status.
     subroutine estimate_by_tang(self, workspace, case, result, status, finer)
         class(tang_method_t), intent(in) :: self        !! TANG
         type(workspace_t), intent(in) :: workspace      !! with its solution
         type(contact_case_t), intent(in) :: case        !! what was solved
-        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(contact_result_t), intent(inout) :: result !! its figures; gets their error estimates
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
         real(wp), intent(in), optional :: finer         !! of no use here
 
@@ -469,7 +469,7 @@ contains
 
         type(tang_options_t) :: options
 
-        call check_softness(case, status)
+        call check_flexibility(case, status)
         if (is_error(status)) return
         options%edges = edges
         call tang_solve(tang, grid, softened(case%material, case%friction), case%mu, &

@@ -1,4 +1,4 @@
-!> A coefficient table checked row by row: how wrong a row is and where, how far it is from a
+!> A coefficient table checked row by row: the error of a row and its place, how far it is from a
 !> fresh fit of its degree, and whether one wrong coefficient would explain that.
 !>
 !> With d(L) the row less the fresh fit, in E, the least-squares change of coefficient k alone is

@@ -1,4 +1,4 @@
-!> `faststrip-lab bench trade`: what every method and resolution costs and how wrong it is.
+!> `faststrip-lab bench trade`: what every method and resolution costs, and its errors.
 !>
 !> Methods come from a CSV file, contacts from the reference folder. One row per contact and
 !> method, so that whoever reads them can take means, largest values and fronts as wanted. A

@@ -1,5 +1,5 @@
-!> `faststrip-lab bench integral`: what an influence coefficient costs by each method, and how wrong
-!> it is.
+!> `faststrip-lab bench integral`: what an influence coefficient costs by each method, and its
+!> error.
 !>
 !> All methods are timed in turn, again and again; a figure is the median over the rounds (beside
 !> it their 95th percentile and worst), and a

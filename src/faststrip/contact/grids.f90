@@ -225,7 +225,7 @@ contains
         difference = abs(a - b)/max(a, b)
     end function difference
 
-    !> Both problems on one grid, and how wrong the target is.
+    !> Both problems on one grid, and the error estimate of the target.
     subroutine solve_on_grid(workspace, case, wanted, steps_case, grid, trial, step, status)
         type(workspace_t), intent(inout) :: workspace ! with strips to start from
         type(contact_case_t), intent(in) :: case

@@ -136,7 +136,7 @@ contains
         end if
     end subroutine set_case_gap
 
-    !> Pressures on the workspace's gap, and how wrong they are.
+    !> Pressures on the workspace's gap, and their error estimates.
     subroutine find_pressures(workspace, case, method, result, status)
         type(workspace_t), intent(inout) :: workspace   !! with a gap
         type(contact_case_t), intent(in) :: case        !! checked
@@ -196,7 +196,7 @@ contains
         result%knows_stick = result%has_forces .and. method%about%gives_stick
     end subroutine find_forces
 
-    !> Forces, and how wrong they are, where that is known of the pressures and wanted; an error
+    !> Forces, and their error estimates where those of the pressures are known and wanted; an error
     !> becomes the contact's.
     subroutine add_forces(workspace, case, method, result, status)
         type(workspace_t), intent(inout) :: workspace   !! with a normal solution

@@ -174,7 +174,7 @@ contains
         call restore_environment(environment)
     end subroutine solve_contact_forces
 
-    !> How wrong the workspace's solution is, for who solved with `case%estimate` off; more than the
+    !> Error estimates of the workspace's solution after one with `case%estimate` off; more than the
     !> limit is named in the status.
     subroutine estimate_contact(workspace, case, result, status)
         type(workspace_t), intent(in) :: workspace      !! with a solution

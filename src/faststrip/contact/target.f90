@@ -1,4 +1,4 @@
-!> How wrong the wanted figure of a solution is, by its estimates.
+!> The error estimate of the wanted figure of a solution.
 module faststrip_contact_target
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi

@@ -307,7 +307,7 @@ contains
         type(rolling_t), intent(in) :: rolling
         type(block_t), intent(out) :: block
 
-        real(wp) :: softness, hardness, offset, cksi
+        real(wp) :: flexibility, stiffness, offset, cksi
         integer :: i, k
 
         ! At the centroid.
@@ -333,21 +333,21 @@ contains
             block%y(k) = block%y(block%n)
             block%peak_bound(k) = block%peak_bound(block%n)
         end do
-        !$omp simd private(softness, hardness, offset)
+        !$omp simd private(flexibility, stiffness, offset)
         do k = 1, block%lanes
             ! To the power of gamma_length.
-            softness = sqrt(sqrt(block%half_length(k)/law%a))
-            softness = softness*sqrt(softness)
-            hardness = 1.0_wp/softness
+            flexibility = sqrt(sqrt(block%half_length(k)/law%a))
+            flexibility = flexibility*sqrt(flexibility)
+            stiffness = 1.0_wp/flexibility
             offset = block%y(k) - law%y
             block%slope_x(k) = (cksi/law%l1 - offset*rolling%creepage%cphi*law%spin_slope) &
-                               *hardness
-            block%slope_y0(k) = rolling%creepage%ceta/law%l2*hardness
-            block%slope_y1(k) = rolling%creepage%cphi/law%l3*hardness
+                               *stiffness
+            block%slope_y0(k) = rolling%creepage%ceta/law%l2*stiffness
+            block%slope_y1(k) = rolling%creepage%cphi/law%l3*stiffness
             block%rigid_x(k) = rolling%creepage%cksi - block%y(k)*rolling%creepage%cphi
-            block%k1(k) = law%k1*softness
-            block%k2(k) = law%k2*softness
-            block%onset(k) = slip_onset/sqrt(law%k1*law%k2)*block%half_length(k)*hardness
+            block%k1(k) = law%k1*flexibility
+            block%k2(k) = law%k2*flexibility
+            block%onset(k) = slip_onset/sqrt(law%k1*law%k2)*block%half_length(k)*stiffness
             block%inverse_peak_bound(k) = 1.0_wp/block%peak_bound(k)
             block%px(k) = 0.0_wp
             block%py(k) = 0.0_wp

@@ -379,7 +379,7 @@ contains
         end do
     end subroutine solve_for_height
 
-    ! How wrong all is where the wheelset came to rest; left wheels out of the mirror.
+    ! Error estimates of all where the wheelset came to rest; left wheels out of the mirror.
     subroutine complete(model, workspace, state, demand, result, status)
         type(wheelset_model_t), intent(in) :: model
         type(wheelset_workspace_t), intent(inout) :: workspace

@@ -83,8 +83,8 @@ contains
         end do
     end subroutine solve_wheel_at
 
-    !> How wrong the last solution of a wheel is; too large errors are named in the statuses of its
-    !> contacts, and by `name_pressures` in its own.
+    !> Error estimates of the last solution of a wheel; too large ones are named in the statuses of
+    !> its contacts, and by `name_pressures` in its own.
     subroutine estimate_wheel(model, workspace, wheel)
         type(wheelset_model_t), intent(in) :: model         !! made
         type(wheel_workspace_t), intent(in) :: workspace    !! of the solution

@@ -1,4 +1,4 @@
-!> How wrong a solution by Kalker's variational method is, from two grids and from its own.
+!> Error estimates of a solution by Kalker's variational method, from two grids and its own.
 !>
 !> Richardson's estimate takes the differences of two grids, of second order. By chance two grids
 !> may agree better than either with the truth, where a peak lies between the elements. So the grid

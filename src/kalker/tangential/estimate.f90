@@ -1,4 +1,4 @@
-!> How wrong forces by TANG are, from those of elements twice as long and wide.
+!> Error estimates of forces by TANG, from those of elements twice as long and wide.
 !>
 !> The error falls with the sides to the power of about 1.5, but Fx is not monotone, and two grids
 !> may agree by chance better than either with the truth: so every force counts the differences d of

@@ -74,12 +74,12 @@ contains
         end associate
     end subroutine solve_by_fastsim
 
-    !> How wrong its forces are.
+    !> Error estimates of its forces.
     subroutine estimate_by_fastsim(self, workspace, case, result, status, finer)
         class(kalkers_fastsim_t), intent(in) :: self    !! Kalker's own
         type(workspace_t), intent(in) :: workspace      !! with a solution
         type(contact_case_t), intent(in) :: case        !! what was solved
-        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(contact_result_t), intent(inout) :: result !! its figures; gets their error estimates
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
         real(wp), intent(in), optional :: finer         !! see `estimate_force_errors`
 

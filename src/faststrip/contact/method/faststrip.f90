@@ -49,12 +49,12 @@ contains
             self%is_corrected, case%friction)
     end subroutine solve_by_faststrip
 
-    !> How wrong its forces are.
+    !> Error estimates of its forces.
     subroutine estimate_by_faststrip(self, workspace, case, result, status, finer)
         class(faststrip_method_t), intent(in) :: self   !! corrected or not
         type(workspace_t), intent(in) :: workspace      !! with a solution
         type(contact_case_t), intent(in) :: case        !! what was solved
-        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(contact_result_t), intent(inout) :: result !! its figures; gets their error estimates
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
         real(wp), intent(in), optional :: finer         !! see `estimate_force_errors`
 

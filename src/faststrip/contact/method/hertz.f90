@@ -67,12 +67,12 @@ contains
         end associate
     end subroutine solve_by_hertz
 
-    !> How wrong the ellipse is; more than the limit is named in the status.
+    !> Error estimates of the ellipse; more than the limit is named in the status.
     subroutine estimate_by_hertz(self, workspace, case, result, status)
         class(hertz_method_t), intent(in) :: self       !! Hertz
         type(workspace_t), intent(in) :: workspace      !! with its solution
         type(contact_case_t), intent(in) :: case        !! what was solved
-        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(contact_result_t), intent(inout) :: result !! its figures; gets their error estimates
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
         result%normal_errors = estimate_hertz_errors(misfit_of(workspace, case))

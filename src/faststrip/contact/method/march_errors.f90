@@ -1,5 +1,5 @@
-!> How wrong forces of the core's methods are: what those with a march in a patch share, and what
-!> all of them leave out.
+!> Error estimates of the forces of the core's methods: what those with a march in a patch share,
+!> and what all of them leave out.
 module faststrip_contact_method_march_errors
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: falls, softened
@@ -44,13 +44,13 @@ contains
         call name_left_out(case, status)
     end subroutine name_limits
 
-    !> How wrong the forces of a march are.
+    !> Error estimates of the forces of a march.
     subroutine estimate_march(workspace, case, march, points, result, status, finer)
         type(workspace_t), intent(in) :: workspace      !! with a normal solution
         type(contact_case_t), intent(in) :: case        !! what was solved
         integer, intent(in) :: march                    !! one of the `errors_of_` numbers
         integer, intent(in) :: points                   !! along a strip or row
-        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(contact_result_t), intent(inout) :: result !! its figures; gets their error estimates
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
         real(wp), intent(in), optional :: finer         !! see `estimate_force_errors`
 

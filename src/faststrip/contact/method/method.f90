@@ -56,7 +56,7 @@ module faststrip_contact_method
     type :: contact_result_t
         type(normal_result_t) :: normal = normal_result_t()
             !! load, penetration, area, maximum pressure, ...
-        type(normal_errors_t) :: normal_errors = normal_errors_t() !! how wrong they are
+        type(normal_errors_t) :: normal_errors = normal_errors_t() !! their error estimates
         logical :: is_estimated = .false.
             !! is that known? Not of ellipses in the strips' place
         logical :: has_residuals = .false.
@@ -65,7 +65,7 @@ module faststrip_contact_method
             !! forces on the rail, friction power, stick
         logical :: has_forces = .false.  !! are these known?
         logical :: knows_stick = .false. !! is the stick fraction known?
-        type(force_errors_t) :: force_errors = force_errors_t() !! how wrong the forces are
+        type(force_errors_t) :: force_errors = force_errors_t() !! error estimates of the forces
         logical :: forces_are_estimated = .false.
             !! is that known? Of FASTSTRIP and FASTSIM, where the normal errors are
         type(wear_figures_t) :: wear     !! if there are forces
@@ -121,7 +121,7 @@ module faststrip_contact_method
         procedure(reserve_i), deferred :: reserve
         !> Pressures and strips on the gap in the workspace (`solver%curve`).
         procedure(solve_normal_i), deferred :: solve
-        !> How wrong they are; not known, unless a method says so.
+        !> Error estimates; not known, unless a method has some.
         procedure :: estimate => no_normal_estimate
         !> What auto may expect of it for a target; nothing, unless a method says so.
         procedure :: expected => nothing_expected
@@ -135,7 +135,7 @@ module faststrip_contact_method
     contains
         !> Forces on the workspace's strips, or on its ellipse.
         procedure(solve_tangential_i), deferred :: solve
-        !> How wrong they are; not known, unless a method says so.
+        !> Error estimates; not known, unless a method has some.
         procedure :: estimate => no_force_estimate
     end type tangential_method_t
 
@@ -256,7 +256,7 @@ contains
         class(normal_method_t), intent(in) :: self      !! has no estimate of its own
         type(workspace_t), intent(in) :: workspace      !! with its solution
         type(contact_case_t), intent(in) :: case        !! what was solved
-        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(contact_result_t), intent(inout) :: result !! its figures; gets their error estimates
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
     end subroutine no_normal_estimate
 
@@ -273,7 +273,7 @@ contains
         class(tangential_method_t), intent(in) :: self  !! has no estimate of its own
         type(workspace_t), intent(in) :: workspace      !! with its solution
         type(contact_case_t), intent(in) :: case        !! what was solved
-        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(contact_result_t), intent(inout) :: result !! its figures; gets their error estimates
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
         real(wp), intent(in), optional :: finer
             !! what would be estimated of so many times as many strips; see `estimate_force_errors`

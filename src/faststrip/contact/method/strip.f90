@@ -67,12 +67,12 @@ contains
                                 options, workspace%strips, normal, status)
     end subroutine solve_by_strips
 
-    !> How wrong the strips are; more than the limit is named in the status.
+    !> Error estimates of the strips; more than the limit is named in the status.
     subroutine estimate_by_strips(self, workspace, case, result, status)
         class(strip_method_t), intent(in) :: self       !! strips
         type(workspace_t), intent(in) :: workspace      !! with their solution
         type(contact_case_t), intent(in) :: case        !! what was solved
-        type(contact_result_t), intent(inout) :: result !! its figures; gets how wrong they are
+        type(contact_result_t), intent(inout) :: result !! its figures; gets their error estimates
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
         character(len=message_length) :: words

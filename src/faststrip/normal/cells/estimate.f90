@@ -1,4 +1,4 @@
-!> How wrong the lattice's answer may be: from two lattices, and from what the last cannot see.
+!> Error estimates of the lattice's answer: from two lattices, and from what the last cannot see.
 !>
 !> The last lattice and the one before lie over ranges of different widths: their cells differ in
 !> width, in length and in place. Of what the two solutions differ by the errors are a part. Both

@@ -1,5 +1,5 @@
 !> A posteriori error estimates of a strip solution: how well the contact condition holds where it
-!> was not asked for, and how wrong penetration, maximum pressure and area are by that.
+!> was not asked for, and what penetration, maximum pressure and area err by that.
 !>
 !> The solver closes the gap on the centre line and at the tip of each strip's middle. Here the
 !> gap between the deformed surfaces, from the exact influence integral, is sampled in between,

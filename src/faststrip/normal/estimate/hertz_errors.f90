@@ -1,4 +1,4 @@
-!> How wrong the Hertz contact of a gap is, from what the gap differs from its parabola by.
+!> Error estimates of the Hertz contact of a gap, from what the gap differs from its parabola by.
 !>
 !> With the numbers of `faststrip_normal_estimate_misfit`, all over the penetration, and e the rise
 !> of the parabola to the ellipse's end, over Hertz's figures

@@ -1,5 +1,5 @@
-!> How wrong the creep forces of FASTSTRIP and FASTSIM are expected to be: less than what is said in
-!> 95 of 100 contacts.
+!> Error estimates of the creep forces of FASTSTRIP and FASTSIM: they bound the error in 95 of 100
+!> contacts.
 !>
 !> A network that was fitted to the errors of forces on contacts that the correction of FASTSTRIP
 !> did not know (`tools/generate/fit_forces.py`); it is told what the correction is told, how large
