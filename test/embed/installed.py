@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -17,6 +18,16 @@ import page_in_browser  # noqa: F401
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 HOSTS = ROOT / "example" / "hosts"
+
+
+def bits(*numbers):
+    """Sixteen hexadecimal digits a number, as the hosts print them."""
+    return " ".join(struct.pack(">d", number).hex().upper() for number in numbers)
+
+
+def number(text):
+    """The number that is printed so."""
+    return struct.unpack(">d", bytes.fromhex(text))[0]
 
 
 def readme_blocks():
@@ -123,3 +134,32 @@ class HostTest(unittest.TestCase):
             name, value = row.split()
             found.setdefault(name, []).append(int(value))
         return found
+
+    def check_calls(self, declared, rows, functions=""):
+        """Statements of fixed-form Fortran, row by row: a name, the number wanted, the statements,
+        and the number where that is not INFO."""
+        lines = ["      PROGRAM CALLS", declared.rstrip("\n")]
+        for name, _, statements, *expression in rows:
+            lines += [f"      {one}" for one in statements.split("; ") if one]
+            lines.append(f"      WRITE (*, *) '{name}', {expression[0] if expression else 'INFO'}")
+        self.write("calls.f", "\n".join([*lines, "      END", functions]))
+        self.shell("gfortran -std=legacy -ffixed-line-length-none -g"
+                   " -ffpe-trap=invalid,zero,overflow calls.f $(pkg-config --libs faststrip)"
+                   " -o calls")
+        self.assertEqual(self.findings("./calls"), {row[0]: [row[1]] for row in rows})
+
+    def refused(self, word, call, *values, says="", **options):
+        """A call of the Python package that fails, with its word and some of its message."""
+        with self.assertRaises(sys.modules["faststrip"].FaststripError, msg=says) as caught:
+            call(*values, **options)
+        self.assertEqual(caught.exception.word, word, says)
+        self.assertGreaterEqual(caught.exception.status, 100, says)
+        self.assertIn(says, str(caught.exception))
+
+    def all_refused(self, *rows):
+        """Rows of words and a call of the Python package, which fails with these words."""
+        for says, call in rows:
+            with self.subTest(says):
+                with self.assertRaises(sys.modules["faststrip"].FaststripError) as caught:
+                    call()
+                self.assertIn(says, str(caught.exception))

@@ -10,234 +10,126 @@ from installed import HOSTS, ROOT, HostTest
 R0, S = 460.0, 750.0
 
 
-ERRORS = """\
-      PROGRAM ERRORS
-      INTEGER IOPT(9), IW(8), IW2(8), IW3(8), N, I, INFO, K(400),
-     &  BITS(2)
-      DOUBLE PRECISION PAR(9), RES(14), Y(6), H(6), A(6), X(400), F(3),
-     &  ERR(7), ERR2(7), FERR(4), FERR2(4), TAKN(5), TAKN2(5), Z, IEEE
+# Each row: what it is, the number that has to come, the statements that lead to it, and the number
+# where that is not INFO. A row goes on where the one before it has left off.
+ROWS = (
+    ("query", 8000, "CALL FSINIT(IOPT, 5, IW, -1, INFO)", "IW(1)*1000 + INFO"),
+    ("short", 110, "CALL FSINIT(IOPT, 5, IW, 7, INFO)"),
+    ("points", 100, "CALL FSINIT(IOPT, 4, IW, 8, INFO)"),
+    ("unmade", 100, "CALL FSGAP(IW, 5, Y, H, A, INFO)"),
+    ("blank", 1, "CALL FSLAST(IW, TEXT)", "INDEX(TEXT, 'no workspace')"),
+    ("made", 0, "IOPT(9) = 1; CALL FSINIT(IOPT, 5, IW, 8, INFO)"),
+    ("gapless", 110, "CALL FSSOLV(IW, IOPT, PAR, RES, INFO)"),
+    ("negative", 100, "CALL FSGAP(IW, -1, Y, H, A, INFO)"),
+    ("long", 110, "CALL FSCONT(IW, 6, Y, H, A, IOPT, PAR, RES, INFO)"),
+    ("loadless", 105, "CALL FSCONT(IW, 5, Y, H, A, IOPT, PAR, RES, INFO)"),
+    ("words", 1, "CALL FSLAST(IW, TEXT)", "INDEX(TEXT, 'the load')"),
+    ("word", 1, "CALL FSMSG(INFO, TEXT)", "INDEX(TEXT, 'bad_load    ')"),
+    ("solved", 0, "PAR(6) = 1D3; PAR(7) = 1D-3; CALL FSSOLV(IW, IOPT, PAR, RES, INFO)"),
+    ("strips", 0, "CALL FSSTRP(IW, 400, N, X, X, X, X, K, INFO)",
+     "N*1000 + INFO - INT(RES(14))*1000"),
+    ("few", 110, "CALL FSSTRP(IW, 2, N, X, X, X, X, K, INFO)"),
+    ("elements", 0, "CALL FSELEM(IW, 400, N, X, X, X, X, X, X, X, X, K, INFO)",
+     "N - 15*INT(RES(14))"),
+    ("copied", 0, "CALL FSINIT(IOPT, 5, IW2, 8, INFO); CALL FSCOPY(IW, IW2, INFO)"),
+    ("again", 0, "CALL FSSOLV(IW2, IOPT, PAR, RES, INFO)"),
+    ("errors", 0, "CALL FSERRS(IW, ERR, INFO)"),
+    ("known", 1000, "", "NINT(ERR(6)*1000 + ERR(7) - RES(14))"),
+    ("small", 0, "", "INT(ERR(2)*10)"),
+    ("forces", 1, "CALL FSCOPY(IW, IW2, INFO); CALL FSERRS(IW2, ERR2, INFO); "
+     "CALL FSFERR(IW, FERR, INFO)", "INFO + NINT(FERR(4))"),
+    ("part", 0, "", "INT(FERR(1)*10) + INT(FERR(3)*10)"),
+    ("equal", 0, "CALL FSFERR(IW2, FERR2, INFO)", "NUNLIK(4, FERR, FERR2)"),
+    ("differ", 0, "", "NUNLIK(7, ERR, ERR2)"),
+    ("zero", 100, "CALL FSLIMT(IW, 1, 0D0, INFO)"),
+    ("limit", 22, "CALL FSLAST(IW, LONG)", "INDEX(LONG, 'must be above 0, got 0.00000')"),
+    ("below", 100, "CALL FSLIMT(IW, 0, -1D0, INFO)"),
+    ("nan", 100, "CALL FSLIMT(IW, 0, IEEE, INFO)"),
+    ("named", 39, "CALL FSLAST(IW, LONG)", "INDEX(LONG, 'got NaN')"),
+    ("kept", 1, "CALL FSSOLV(IW, IOPT, PAR, RES, INFO); CALL FSERRS(IW, ERR2, INFO)",
+     "NINT(ERR2(6))"),
+    ("strict", 0, "CALL FSLIMT(IW, 1, 1D-6, INFO)"),
+    ("rough", 8, "CALL FSSOLV(IW, IOPT, PAR, RES, INFO)"),
+    ("alike", 8, "CALL FSCOPY(IW, IW2, INFO); CALL FSSOLV(IW2, IOPT, PAR, RES, INFO)"),
+    ("off", 0, "CALL FSLIMT(IW, 0, 1D-6, INFO); CALL FSSOLV(IW, IOPT, PAR, RES, INFO)"),
+    ("unknown", 0, "CALL FSERRS(IW, ERR, INFO)", "NUNLIK(6, ERR, ZERO)"),
+    ("silent", 0, "CALL FSFERR(IW, FERR, INFO)", "NUNLIK(4, FERR, ZERO) + INFO"),
+    ("anew", 0, "CALL FSGAP(IW2, 5, Y, H, A, INFO); CALL FSERRS(IW2, ERR2, INFO)",
+     "NINT(ERR2(6) + ERR2(7)) + INFO"),
+    ("freed", 0, "CALL FSFREE(IW2, INFO)"),
+    ("gone", 100, "CALL FSERRS(IW2, ERR2, INFO)"),
+    ("lost", 100, "CALL FSFERR(IW2, FERR, INFO)"),
+    ("went", 100, "CALL FSLIMT(IW2, 1, 0.1D0, INFO)"),
+    ("twice", 100, "CALL FSFREE(IW2, INFO)"),
+    ("nowhere", 100, "CALL FSCOPY(IW, IW2, INFO)"),
+    ("unmeant", 110, "CALL FSFREE(IW, INFO); CALL FSDFLT(IOPT, PAR); PAR(6) = 1D3; PAR(7) = 1D-3; "
+     "CALL FSINIT(IOPT, 6, IW3, 8, INFO); IOPT(1) = 6; "
+     "CALL FSCONT(IW3, 6, Y, H, A, IOPT, PAR, RES, INFO)"),
+    ("auto", 0, "CALL FSFREE(IW3, INFO); CALL FSINIT(IOPT, 6, IW, 8, INFO); "
+     "CALL FSINIT(IOPT, 6, IW2, 8, INFO)"),
+    # From here on unlike sides, no ellipse.
+    ("target", 100, "H(4) = 0.2D0; H(5) = 0.8D0; H(6) = 1.8D0; "
+     "CALL FSWANT(IW, 6, 0.1D0, 0D0, INFO)"),
+    ("which", 12, "CALL FSLAST(IW, LONG)", "INDEX(LONG, 'must be 1 to 5, got 6')"),
+    ("tolerance", 100, "CALL FSWANT(IW, 1, -0.1D0, 0D0, INFO)"),
+    ("budget", 100, "CALL FSWANT(IW, 1, 0.1D0, IEEE, INFO)"),
+    ("neither", 100, "CALL FSWANT(IW, 1, 0D0, 0D0, INFO)"),
+    # Refused, all is as it was: forces, 0.02.
+    ("wanted", 0, "CALL FSCONT(IW, 6, Y, H, A, IOPT, PAR, RES, INFO)"),
+    ("met", 0, "CALL FSTAKN(IW, TAKN, INFO); CALL FSFERR(IW, FERR, INFO); N = 0; "
+     "IF (TAKN(3) .NE. MAX(FERR(1), FERR(2), FERR(3))) N = 1; "
+     "IF (TAKN(3) .GT. 0.02D0 .OR. TAKN(5) .NE. 1D0) N = N + 2", "N + INFO"),
+    ("missed", 7, "CALL FSWANT(IW, 2, 1D-9, 0D0, INFO); CALL FSSOLV(IW, IOPT, PAR, RES, INFO)"),
+    ("pmax", 0, "CALL FSTAKN(IW, TAKN, INFO); CALL FSERRS(IW, ERR, INFO); N = 0; "
+     "IF (TAKN(3) .NE. ERR(2) .OR. TAKN(4) .NE. 1D0) N = 1; "
+     "IF (TAKN(1) .LT. 2D0 .OR. TAKN(5) .NE. 0D0) N = N + 2", "N + INFO"),
+    # The other workspace takes over the steps and what is wanted.
+    ("taken", 0, "CALL FSCOPY(IW, IW2, INFO); CALL FSTAKN(IW2, TAKN2, INFO)",
+     "NUNLIK(5, TAKN, TAKN2) + INFO"),
+    ("steps", 110, "CALL FSSTEP(IW2, 1, N, K, K(20), K(40), K(60), X, X(20), X(40), INFO)",
+     "INFO + N - NINT(TAKN(1))"),
+    ("best", 101, "CALL FSSTEP(IW2, 9, N, K, K(20), K(40), K(60), X, X(20), X(40), INFO); "
+     "I = NINT(TAKN(2))", "INFO + K(I)*100 + K(I + 19)"),
+    ("across", 0, "", "K(I + 39) - NINT(ERR(7))"),
+    ("likewise", 7, "CALL FSSOLV(IW2, IOPT, PAR, RES, INFO)"),
+    ("forgot", 0, "CALL FSGAP(IW2, 6, Y, H, A, INFO); CALL FSTAKN(IW2, TAKN2, INFO)",
+     "NINT(TAKN2(1) + TAKN2(3)) + INFO"),
+    ("lapsed", 100, "CALL FSFREE(IW2, INFO); CALL FSTAKN(IW2, TAKN2, INFO)"),
+    ("ended", 100, "CALL FSWANT(IW2, 1, 0.1D0, 0D0, INFO)"),
+    ("over", 100, "CALL FSSTEP(IW2, 9, N, K, K, K, K, X, X, X, INFO)", "INFO + N"),
+    ("flat", 100, "CALL FSFREE(IW, INFO); CALL FSTSIM(6D0, 0D0, 8D4, 4D0, 4D0, 2D0, 0D0, 0D0, "
+     "0D0, 0.3D0, 1D5, 9, 9, F(1), F(2), F(3), INFO)"),
+    ("ratio", 109, "CALL FSKALK(0D0, 0.3D0, X, INFO)"),
+    ("saddle", 107, "CALL FSHERZ(PAR, 1D-3, -1D-3, 1D5, X(1), X(2), X(3), X(4), INFO)"),
+)
+
+DECLARED = """\
+      INTEGER IOPT(9), IW(8), IW2(8), IW3(8), N, I, INFO, K(400), BITS(2), NUNLIK
+      DOUBLE PRECISION PAR(9), RES(14), Y(6), H(6), A(6), X(400), F(3), IEEE, ZERO(7)
+      DOUBLE PRECISION ERR(7), ERR2(7), FERR(4), FERR2(4), TAKN(5), TAKN2(5)
       CHARACTER*12 TEXT
       CHARACTER*80 LONG
       EQUIVALENCE (IEEE, BITS)
-      DATA BITS /0, 2146959360/
-      DATA Y /-2.0D0, -1.0D0, 0.0D0, 1.0D0, 2.0D0, 3.0D0/
-      DATA H /0.4D0, 0.1D0, 0.0D0, 0.1D0, 0.4D0, 0.9D0/, A /6*1.0D-3/
+      DATA BITS /0, 2146959360/, ZERO /7*0D0/, A /6*1D-3/
+      DATA Y /-2D0, -1D0, 0D0, 1D0, 2D0, 3D0/, H /.4D0, .1D0, 0D0, .1D0, .4D0, .9D0/
       CALL FSDFLT(IOPT, PAR)
-      CALL FSINIT(IOPT, 5, IW, -1, INFO)
-      WRITE (*, *) 'query', IW(1)*1000 + INFO
-      CALL FSINIT(IOPT, 5, IW, 7, INFO)
-      WRITE (*, *) 'short', INFO
-      CALL FSINIT(IOPT, 4, IW, 8, INFO)
-      WRITE (*, *) 'points', INFO
-      CALL FSGAP(IW, 5, Y, H, A, INFO)
-      WRITE (*, *) 'unmade', INFO
-      CALL FSLAST(IW, TEXT)
-      WRITE (*, *) 'blank', INDEX(TEXT, 'no workspace')
-      IOPT(9) = 1
-      CALL FSINIT(IOPT, 5, IW, 8, INFO)
-      WRITE (*, *) 'made', INFO
-      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'gapless', INFO
-      CALL FSGAP(IW, -1, Y, H, A, INFO)
-      WRITE (*, *) 'negative', INFO
-      CALL FSCONT(IW, 6, Y, H, A, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'long', INFO
-      CALL FSCONT(IW, 5, Y, H, A, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'loadless', INFO
-      CALL FSLAST(IW, TEXT)
-      WRITE (*, *) 'words', INDEX(TEXT, 'the load')
-      CALL FSMSG(INFO, TEXT)
-      WRITE (*, *) 'word', INDEX(TEXT, 'bad_load    ')
-      PAR(6) = 1.0D3
-      PAR(7) = 1.0D-3
-      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'solved', INFO
-      CALL FSSTRP(IW, 400, N, X, X, X, X, K, INFO)
-      WRITE (*, *) 'strips', N*1000 + INFO - INT(RES(14))*1000
-      CALL FSSTRP(IW, 2, N, X, X, X, X, K, INFO)
-      WRITE (*, *) 'few', INFO
-      CALL FSELEM(IW, 400, N, X, X, X, X, X, X, X, X, K, INFO)
-      WRITE (*, *) 'elements', N - 15*INT(RES(14))
-      CALL FSINIT(IOPT, 5, IW2, 8, INFO)
-      CALL FSCOPY(IW, IW2, INFO)
-      WRITE (*, *) 'copied', INFO
-      CALL FSSOLV(IW2, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'again', INFO
-      CALL FSERRS(IW, ERR, INFO)
-      WRITE (*, *) 'errors', INFO
-      WRITE (*, *) 'known', NINT(ERR(6)*1000 + ERR(7) - RES(14))
-      WRITE (*, *) 'small', INT(ERR(2)*10)
-      CALL FSCOPY(IW, IW2, INFO)
-      CALL FSERRS(IW2, ERR2, INFO)
-      CALL FSFERR(IW, FERR, INFO)
-      WRITE (*, *) 'forces', INFO + NINT(FERR(4))
-      WRITE (*, *) 'part', INT(FERR(1)*10) + INT(FERR(3)*10)
-      CALL FSFERR(IW2, FERR2, INFO)
-      N = 0
-      DO 5 I = 1, 4
-        IF (FERR(I) .NE. FERR2(I)) N = N + 1
-    5 CONTINUE
-      WRITE (*, *) 'equal', N
-      N = 0
-      DO 10 I = 1, 7
-        IF (ERR(I) .NE. ERR2(I)) N = N + 1
+"""
+UNLIKE = """\
+C     How many numbers are not those of the other array.
+      INTEGER FUNCTION NUNLIK(N, A, B)
+      INTEGER N, I
+      DOUBLE PRECISION A(N), B(N)
+      NUNLIK = 0
+      DO 10 I = 1, N
+        IF (A(I) .NE. B(I)) NUNLIK = NUNLIK + 1
    10 CONTINUE
-      WRITE (*, *) 'differ', N
-      Z = 0.0D0
-      CALL FSLIMT(IW, 1, Z, INFO)
-      WRITE (*, *) 'zero', INFO
-      CALL FSLAST(IW, LONG)
-      WRITE (*, *) 'limit', INDEX(LONG, 'must be above 0, got 0.00000')
-      CALL FSLIMT(IW, 0, -1.0D0, INFO)
-      WRITE (*, *) 'below', INFO
-      CALL FSLIMT(IW, 0, IEEE, INFO)
-      WRITE (*, *) 'nan', INFO
-      CALL FSLAST(IW, LONG)
-      WRITE (*, *) 'named', INDEX(LONG, 'got NaN')
-      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
-      CALL FSERRS(IW, ERR2, INFO)
-      WRITE (*, *) 'kept', NINT(ERR2(6))
-      CALL FSLIMT(IW, 1, 1.0D-6, INFO)
-      WRITE (*, *) 'strict', INFO
-      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'rough', INFO
-      CALL FSCOPY(IW, IW2, INFO)
-      CALL FSSOLV(IW2, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'alike', INFO
-      CALL FSLIMT(IW, 0, 1.0D-6, INFO)
-      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'off', INFO
-      CALL FSERRS(IW, ERR, INFO)
-      N = 0
-      DO 20 I = 1, 6
-        IF (ERR(I) .NE. 0.0D0) N = N + 1
-   20 CONTINUE
-      WRITE (*, *) 'unknown', N
-      CALL FSFERR(IW, FERR, INFO)
-      N = 0
-      DO 30 I = 1, 4
-        IF (FERR(I) .NE. 0.0D0) N = N + 1
-   30 CONTINUE
-      WRITE (*, *) 'silent', N + INFO
-      CALL FSGAP(IW2, 5, Y, H, A, INFO)
-      CALL FSERRS(IW2, ERR2, INFO)
-      WRITE (*, *) 'anew', NINT(ERR2(6) + ERR2(7)) + INFO
-      CALL FSFREE(IW2, INFO)
-      WRITE (*, *) 'freed', INFO
-      CALL FSERRS(IW2, ERR2, INFO)
-      WRITE (*, *) 'gone', INFO
-      CALL FSFERR(IW2, FERR, INFO)
-      WRITE (*, *) 'lost', INFO
-      CALL FSLIMT(IW2, 1, 0.1D0, INFO)
-      WRITE (*, *) 'went', INFO
-      CALL FSFREE(IW2, INFO)
-      WRITE (*, *) 'twice', INFO
-      CALL FSCOPY(IW, IW2, INFO)
-      WRITE (*, *) 'nowhere', INFO
-      CALL FSFREE(IW, INFO)
-      CALL FSDFLT(IOPT, PAR)
-      PAR(6) = 1.0D3
-      PAR(7) = 1.0D-3
-      CALL FSINIT(IOPT, 6, IW3, 8, INFO)
-      IOPT(1) = 6
-      CALL FSCONT(IW3, 6, Y, H, A, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'unmeant', INFO
-      CALL FSFREE(IW3, INFO)
-      CALL FSINIT(IOPT, 6, IW, 8, INFO)
-      CALL FSINIT(IOPT, 6, IW2, 8, INFO)
-      WRITE (*, *) 'auto', INFO
-C     Unlike sides, no ellipse.
-      H(4) = 0.2D0
-      H(5) = 0.8D0
-      H(6) = 1.8D0
-      CALL FSWANT(IW, 6, 0.1D0, 0.0D0, INFO)
-      WRITE (*, *) 'target', INFO
-      CALL FSLAST(IW, LONG)
-      WRITE (*, *) 'which', INDEX(LONG, 'must be 1 to 5, got 6')
-      CALL FSWANT(IW, 1, -0.1D0, 0.0D0, INFO)
-      WRITE (*, *) 'tolerance', INFO
-      CALL FSWANT(IW, 1, 0.1D0, IEEE, INFO)
-      WRITE (*, *) 'budget', INFO
-      CALL FSWANT(IW, 1, 0.0D0, 0.0D0, INFO)
-      WRITE (*, *) 'neither', INFO
-C     Refused, all is as it was: forces, 0.02.
-      CALL FSCONT(IW, 6, Y, H, A, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'wanted', INFO
-      CALL FSTAKN(IW, TAKN, INFO)
-      CALL FSFERR(IW, FERR, INFO)
-      N = 0
-      IF (TAKN(3) .NE. MAX(FERR(1), FERR(2), FERR(3))) N = 1
-      IF (TAKN(3) .GT. 0.02D0 .OR. TAKN(5) .NE. 1D0) N = N + 2
-      WRITE (*, *) 'met', N + INFO
-      CALL FSWANT(IW, 2, 1.0D-9, 0.0D0, INFO)
-      CALL FSSOLV(IW, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'missed', INFO
-      CALL FSTAKN(IW, TAKN, INFO)
-      CALL FSERRS(IW, ERR, INFO)
-      N = 0
-      IF (TAKN(3) .NE. ERR(2) .OR. TAKN(4) .NE. 1D0) N = 1
-      IF (TAKN(1) .LT. 2D0 .OR. TAKN(5) .NE. 0D0) N = N + 2
-      WRITE (*, *) 'pmax', N + INFO
-C     The other workspace takes over the steps and what is wanted.
-      CALL FSCOPY(IW, IW2, INFO)
-      CALL FSTAKN(IW2, TAKN2, INFO)
-      N = 0
-      DO 40 I = 1, 5
-        IF (TAKN(I) .NE. TAKN2(I)) N = N + 1
-   40 CONTINUE
-      WRITE (*, *) 'taken', N + INFO
-      CALL FSSTEP(IW2, 1, N, K, K(20), K(40), K(60), X, X(20), X(40),
-     &  INFO)
-      WRITE (*, *) 'steps', INFO + N - NINT(TAKN(1))
-      CALL FSSTEP(IW2, 9, N, K, K(20), K(40), K(60), X, X(20), X(40),
-     &  INFO)
-      I = NINT(TAKN(2))
-      WRITE (*, *) 'best', INFO + K(I)*100 + K(I + 19)
-      WRITE (*, *) 'across', K(I + 39) - NINT(ERR(7))
-      CALL FSSOLV(IW2, IOPT, PAR, RES, INFO)
-      WRITE (*, *) 'likewise', INFO
-      CALL FSGAP(IW2, 6, Y, H, A, INFO)
-      CALL FSTAKN(IW2, TAKN2, INFO)
-      WRITE (*, *) 'forgot', NINT(TAKN2(1) + TAKN2(3)) + INFO
-      CALL FSFREE(IW2, INFO)
-      CALL FSTAKN(IW2, TAKN2, INFO)
-      WRITE (*, *) 'lapsed', INFO
-      CALL FSWANT(IW2, 1, 0.1D0, 0.0D0, INFO)
-      WRITE (*, *) 'ended', INFO
-      CALL FSSTEP(IW2, 9, N, K, K, K, K, X, X, X, INFO)
-      WRITE (*, *) 'over', INFO + N
-      CALL FSFREE(IW, INFO)
-      CALL FSTSIM(6D0, 0D0, 8D4, 4D0, 4D0, 2D0, 0D0, 0D0, 0D0, 0.3D0,
-     &  1D5, 9, 9, F(1), F(2), F(3), INFO)
-      WRITE (*, *) 'flat', INFO
-      CALL FSKALK(0D0, 0.3D0, X, INFO)
-      WRITE (*, *) 'ratio', INFO
-      CALL FSHERZ(PAR, 1D-3, -1D-3, 1D5, X(1), X(2), X(3), X(4), INFO)
-      WRITE (*, *) 'saddle', INFO
       END
 """
-ANSWERS = {
-    "query": 8000, "short": 110, "points": 100, "unmade": 100, "blank": 1, "made": 0,
-    "gapless": 110, "negative": 100, "long": 110, "loadless": 105, "words": 1, "word": 1,
-    "forces": 1, "part": 0, "equal": 0, "silent": 0, "lost": 100,
-    "errors": 0, "known": 1000, "small": 0, "differ": 0, "zero": 100, "limit": 22, "below": 100,
-    "nan": 100, "named": 39, "kept": 1, "strict": 0, "rough": 8, "alike": 8, "off": 0, "unknown": 0,
-    "unmeant": 110, "auto": 0, "target": 100, "which": 12, "tolerance": 100, "budget": 100,
-    "neither": 100, "wanted": 0, "met": 0, "missed": 7, "pmax": 0, "taken": 0, "steps": 110,
-    "best": 101, "across": 0, "likewise": 7, "forgot": 0, "lapsed": 100, "ended": 100, "over": 100,
-    "anew": 0, "gone": 100, "went": 100,
-    "solved": 0, "strips": 0, "few": 110, "elements": 0, "copied": 0, "again": 0, "freed": 0,
-    "twice": 100, "nowhere": 100, "flat": 100, "ratio": 109, "saddle": 107,
-}
 
 
 class Errors(HostTest):
     def test_every_subroutine_says_what_is_wrong(self):
-        self.write("errors.f", ERRORS)
-        self.shell("gfortran -std=legacy -g -ffpe-trap=invalid,zero,overflow errors.f"
-                   " $(pkg-config --libs faststrip) -o errors")
-        found = self.findings("./errors")
-        self.assertEqual({name: value for name, (value,) in found.items()}, ANSWERS)
+        self.check_calls(DECLARED, ROWS, UNLIKE)
 
 
 class Wheelset(HostTest):

@@ -1,12 +1,11 @@
 """The lookup table of a wheel gives the same contacts and forces in every interface."""
 
 import math
-import struct
 import subprocess
 
 import numpy as np
 
-from installed import HostTest
+from installed import HostTest, number
 from test_allocation import COUNTER
 
 CASE = ("&wheel\n profile = 's1002'\n/\n&rail\n profile = '60e1'\n/\n&material\n mu = 0.3\n/\n")
@@ -164,7 +163,7 @@ BY_F77 = r"""
 
 
 def numbers(line):
-    return [struct.unpack(">d", bytes.fromhex(bits))[0] for bits in line.split()]
+    return list(map(number, line.split()))
 
 
 class WheelFaces(HostTest):
@@ -228,19 +227,15 @@ class WheelFaces(HostTest):
         self.assertEqual(self.shell("./counted"), "0 0\n0 0\n")
 
     def test_what_is_none_is_refused(self):
-        error = self.package.FaststripError
-        with self.assertRaisesRegex(error, "WheelLookup"):
-            self.package.Lookup(self.folder / "wheel.fslt")
-        with self.assertRaises(error):
-            self.package.WheelLookup((self.folder / "wheel.fslt").read_bytes()[:-1])
-        with self.assertRaises(error):
-            self.table.contacts(77.0, 0.0, 8e4)
-        with self.assertRaises(error):
-            self.table(9, 0.0, 0.0, 8e4, 0.3, (1e-3, 0.0, 0.0))
-        with self.assertRaisesRegex(error, "order"):
-            self.table.contacts(0.0, 0.0, 8e4, order="square")
-        with self.assertRaisesRegex(error, "creepage"):
-            self.table(1, 0.0, 0.0, 8e4, 0.3, 1e-3)
-        for slot in (1.5, math.nan, 1e12):
-            with self.assertRaisesRegex(error, "slot must be whole numbers"):
-                self.table(slot, 0.0, 0.0, 8e4, 0.3, (1e-3, 0.0, 0.0))
+        package, table, creepage = self.package, self.table, (1e-3, 0.0, 0.0)
+        content = (self.folder / "wheel.fslt").read_bytes()
+        self.all_refused(
+            ("WheelLookup", lambda: package.Lookup(self.folder / "wheel.fslt")),
+            ("a lookup table must have as many bytes", lambda: package.WheelLookup(content[:-1])),
+            ("out_of_range: no place of 1", lambda: table.contacts(77.0, 0.0, 8e4)),
+            ("bad_argument: no state of 1", lambda: table(9, 0.0, 0.0, 8e4, 0.3, creepage)),
+            ("order", lambda: table.contacts(0.0, 0.0, 8e4, order="square")),
+            ("creepage", lambda: table(1, 0.0, 0.0, 8e4, 0.3, 1e-3)),
+            *(("slot must be whole numbers",
+               lambda slot=slot: table(slot, 0.0, 0.0, 8e4, 0.3, creepage))
+              for slot in (1.5, math.nan, 1e12)))
