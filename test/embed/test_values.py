@@ -1,13 +1,13 @@
-"""Every figure of Python against the program's: dissimilar bodies, an unsymmetric gap, all three
-creepages, friction and numbers of points that are no defaults. The other interfaces have the bits
-of Python (test_figures)."""
+"""Every figure of Python against the program's, by every method: dissimilar bodies, an unsymmetric
+gap, all three creepages, friction and numbers of points that are no defaults. The other interfaces
+have the bits of Python (test_figures)."""
 
 import csv
 import importlib
-import math
 import re
 import subprocess
 
+import methods
 from installed import HostTest
 
 POINTS = 401
@@ -39,8 +39,10 @@ COLUMNS = ("N_N", "penetration_mm", "area_mm2", "pmax_MPa", "ymin_mm", "ymax_mm"
            "Fy_N", "Mz_Nmm", "friction_power_N", "stick_fraction")
 NAMES = ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
          "friction_power", "stick_fraction")
-WAYS = (("strip", "faststrip", 11, 13, (50, 50)), ("strip", "fastsim", 9, 15, (12, 21)),
-        ("hertz", "polach", 15, 15, (50, 50)), ("equal_area", "linear", 15, 15, (50, 50)),
+TANGENTIAL = methods.listed("tangential")
+WAYS = (*(("strip", name, 11, 13, (12, 21)) for name in TANGENTIAL),
+        *((name, "faststrip", 9, 15, (50, 50)) for name in methods.listed("normal")
+          if name not in ("strip", "auto")),
         ("hertz", "fastsim-weighted", 15, 15, (31, 8)))
 
 
@@ -65,7 +67,7 @@ class Values(HostTest):
                  "--strips-per-patch", str(strips), "--points-per-strip", str(points),
                  "--fastsim-nx", str(nx), "--fastsim-ny", str(ny),
                  "-o", "row.csv", "--strips", "strips.csv"]
-        if tangential not in ("polach", "linear"):
+        if TANGENTIAL[tangential].gives_elements:
             words += ["--fields", "fields.csv"]
         subprocess.run(words, cwd=self.folder, check=True, stdin=subprocess.DEVNULL)
         return self.table("row.csv")[0], self.table("strips.csv")
@@ -81,7 +83,7 @@ class Values(HostTest):
             with self.subTest(way):
                 row, strips = self.program(way)
                 normal, tangential, n, points, grid = way
-                elements = tangential not in ("polach", "linear")
+                elements = TANGENTIAL[tangential].gives_elements
                 contact = self.faststrip.Contact(
                     normal=normal, tangential=tangential, strips_per_patch=n,
                     points_per_strip=points, fastsim_grid=grid, with_elements=elements)
@@ -140,38 +142,6 @@ class Values(HostTest):
                              ("state", "state")):
             for found, line in zip(getattr(ours, name), lines, strict=True):
                 self.close(found, line[column], name)
-
-    def test_classics_against_formulas(self):
-        """Hertz by his equations, FASTSIM by its linear limit."""
-        faststrip = self.faststrip
-        material = faststrip.Material(E_WHEEL, E_RAIL, NU_WHEEL, NU_RAIL)
-        kalker = faststrip.kalker(1.7, 0.3)
-        # Kalker's table of 1967 by a/b and nu: C11 > C22 here, C33 the smallest of all.
-        self.assertAlmostEqual(kalker[0], 5.1, delta=0.4)
-        self.assertAlmostEqual(kalker[1], 4.6, delta=0.5)
-        self.assertAlmostEqual(kalker[2], 2.2, delta=0.4)
-        self.assertLess(kalker[3], 1.0)
-        a, b, penetration, pmax = faststrip.hertz(1e-3, 3e-3, 5e4, material)
-        self.assertGreater(a, 1.5 * b)
-        self.close(pmax, 1.5 * 5e4 / (math.pi * a * b), "pmax")
-        # Under the middle of an ellipsoidal pressure: 3/2 Q H times the mean of 1/r over the
-        # ellipse's rim, pi/2 of it (H = 1/(pi E*)).
-        compliance = ((1.0 - NU_WHEEL**2) / E_WHEEL + (1.0 - NU_RAIL**2) / E_RAIL) / math.pi
-        steps = [math.pi * (i + 0.5) / 2000 for i in range(2000)]
-        around = [math.hypot(a * math.sin(t), b * math.cos(t)) for t in steps]
-        k = sum(1.0 / r for r in around) * math.pi / 2000 / 2.0
-        self.close(penetration, 1.5 * 5e4 * compliance * k, "penetration")
-        forces = faststrip.fastsim(6.0, 4.0, tuple(kalker[:3]), CREEPAGE, 0.27, 8e4,
-                                   shear_modulus=7e4, grid=(20, 30))
-        self.assertLess(forces[0], 0.0)
-        self.assertGreater(forces[1], 0.0)
-        self.assertNotAlmostEqual(forces[2], forces[1], delta=10.0)
-        tiny = faststrip.fastsim(6.0, 4.0, tuple(kalker[:3]), (1e-7, 0.0, 0.0), 0.27, 8e4,
-                                 shear_modulus=7e4)
-        self.assertAlmostEqual(tiny[0] / (-kalker[0] * 7e4 * 24.0 * 1e-7), 1.0, delta=0.02)
-        shear = material.shear_modulus
-        self.close(1.0 / shear, 0.5 * (2.0 * (1.0 + NU_WHEEL) / E_WHEEL
-                                       + 2.0 * (1.0 + NU_RAIL) / E_RAIL), "shear modulus")
 
     def test_a_copy_keeps_the_capacity_of_its_source(self):
         y, h, a = (self.numpy.array(column) for column in zip(*GAP))
