@@ -158,6 +158,14 @@ class Folder:
             os.chdir(before)
         return status, out.getvalue(), err.getvalue()
 
+    def refused(self, test, words, command, *arguments):
+        """A test that a command ends with one line that holds some words, and makes nothing."""
+        before = sorted(self.path.rglob("*"))
+        status, out, err = self.run(command, *arguments)
+        test.assertEqual((status, out, err.count("\n")), (1, "", 1), (words, err))
+        test.assertIn(words, err)
+        test.assertEqual(sorted(self.path.rglob("*")), before, words)
+
 
 def load(command):
     spec = importlib.util.spec_from_file_location(f"plots_{command}", PLOTS / f"{command}.py")

@@ -144,13 +144,8 @@ class Figures(unittest.TestCase):
 class BadInput(unittest.TestCase):
     def refused(self, files, words, *arguments):
         with Folder(files) as folder:
-            status, out, err = folder.run("accuracy", "--reference", "r.csv", "--fast-modes",
-                                          "f.csv", *arguments)
-            self.assertEqual(status, 1, err)
-            self.assertEqual(out, "")
-            self.assertEqual(err.count("\n"), 1, err)
-            self.assertIn(words, err)
-            self.assertFalse((folder.path / "out/accuracy.md").exists())
+            folder.refused(self, words, "accuracy", "--reference", "r.csv", "--fast-modes",
+                           "f.csv", *arguments)
 
     def setUp(self):
         self.files = {

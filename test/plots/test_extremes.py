@@ -119,10 +119,7 @@ class Pictures(unittest.TestCase):
 class BadInput(unittest.TestCase):
     def refused(self, text, words, *arguments):
         with Folder({} if text is None else {EXTREMES: text}) as folder:
-            status, out, err = folder.run("extremes", *arguments)
-            self.assertEqual((status, out), (1, ""), err)
-            self.assertEqual(err.count("\n"), 1, err)
-            self.assertIn(words, err)
+            folder.refused(self, words, "extremes", *arguments)
 
     def test_files_and_columns(self):
         good = csv_text(COLUMNS, ALL)
