@@ -141,6 +141,19 @@ class ProgramTest(unittest.TestCase):
         done.stderr = without_progress(done.stderr)
         return done
 
+    def succeed(self, *words):
+        """Run what has to succeed, whatever it says on stderr."""
+        done = self.run_program(*words)
+        self.assertEqual(done.returncode, 0, (words, done.stdout, done.stderr))
+        return done
+
+    def written(self, *words, share=False):
+        """The rows of the file that a run writes, which succeeds and prints nothing."""
+        words = (*words, "-o", "out.csv")
+        done = self.share_program(*words) if share else self.run_program(*words)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        return self.read("out.csv")
+
     def assert_columns(self, row, wanted):
         """Its columns are these, in this order; there may be others."""
         self.assertEqual([name for name in row if name in wanted], wanted)
@@ -157,8 +170,7 @@ class ProgramTest(unittest.TestCase):
 
         It is said on stderr, with the estimates, if and only if the row has the status.
         """
-        done = self.run_program(*words)
-        self.assertEqual(done.returncode, 0, (words, done.stderr))
+        done = self.succeed(*words)
         rows = rows_of(done.stdout)
         self.assertEqual(len(rows), 1, words)
         if rows[0]["status"] == "ok":

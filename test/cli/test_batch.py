@@ -214,8 +214,7 @@ class Batch(ProgramTest):
         for name in ("faststrip", "tang"):
             words = runs[f"traction_{name}"].format(data=".").split()
             words[words.index("example/traction_curve.csv")] = example
-            done = self.run_program(*words)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.succeed(*words)
         verdicts = importlib.import_module("faststrip_plots.verdicts")
         rows = [row for row in verdicts.read_manifest(str(ROOT / "reference" / "comparisons.csv"))
                 if row["id"].startswith("traction-")]

@@ -19,8 +19,7 @@ class Rolling(LabTest):
             self.assertEqual(len(kept), 2, name)
             self.write(f"contacts/{name}.csv", "\n".join(kept) + "\n")
         self.write("contacts/gaps/shift_2.csv", (GAPS / "shift_2.csv").read_text(encoding="utf-8"))
-        done = self.run_program("bench", "rolling", "--contacts", "contacts", "-o", "rolling.csv")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.succeed("bench", "rolling", "--contacts", "contacts", "-o", "rolling.csv")
         rows = [row for row in read_manifest(str(ROOT / "reference" / "comparisons.csv"))
                 if row["value_file"] == "rolling.csv"]
         self.assertGreaterEqual(len(rows), 6)

@@ -8,10 +8,8 @@ MU = 0.3
 
 class Tang(LabTest):
     def test_counts_and_forces_of_all_creepages(self):
-        done = self.run_program("bench", "tang", "--quick", "--rounds", "1", "--most-elements",
-                                "4000", "--contacts", str(CONTACTS), "-o", "out.csv")
-        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
-        rows = self.read("out.csv")
+        rows = self.written("bench", "tang", "--quick", "--rounds", "1", "--most-elements", "4000",
+                            "--contacts", CONTACTS)
         self.assertEqual([row["creepages"] for row in rows], ["own", "no_spin", "spin"] * 4)
         for row in rows:
             key = row["case"], row["creepages"]

@@ -15,10 +15,8 @@ LAWS = [name for name in METHODS if not LISTED[name].gives_elements]
 class Bench(LabTest):
     def forces(self):
         """The rows of one run for all tests."""
-        done = self.share_program("bench", "forces", "--contacts", str(CONTACTS), "--scenes",
-                                  str(SCENES), "-o", "out.csv")
-        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
-        return self.read("out.csv")
+        return self.written("bench", "forces", "--contacts", CONTACTS, "--scenes", SCENES,
+                            share=True)
 
     def test_tangential(self):
         lines = (CONTACTS / "s1002_uic60_B.csv").read_text(encoding="utf-8").splitlines()
@@ -28,10 +26,7 @@ class Bench(LabTest):
         for shift in ("-5", "2"):
             name = f"shift_{shift}.csv"
             self.write(f"contacts/gaps/{name}", (GAPS / name).read_text(encoding="utf-8"))
-        done = self.run_program("bench", "tangential", "--contacts", "contacts", "--rounds", "3",
-                                "-o", "out.csv")
-        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
-        rows = self.read("out.csv")
+        rows = self.written("bench", "tangential", "--contacts", "contacts", "--rounds", "3")
         self.assertEqual(list(rows[0]), (
             "method,strips,points,case,elements,us,ns_per_element,ratio,us_with_field,flags,"
             "compiler,cpu,cpu_us_median,cpu_us_p95,cpu_us_worst").split(","))
@@ -96,9 +91,7 @@ class Bench(LabTest):
                                 part * mean[name, quantity, "faststrip-plain"], (name, quantity))
 
     def test_the_correction_takes_what_is_missing_of_ellipses(self):
-        done = self.run_program("bench", "correction", "--quick", "-o", "out.csv")
-        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
-        rows = self.read("out.csv")
+        rows = self.written("bench", "correction", "--quick")
         self.assertEqual(len(rows), 5 * 4 * 6)
         for direction, force in (("longitudinal", "Fx"), ("lateral", "Fy"), ("lateral", "Mz"),
                                  ("spin", "Fy"), ("all", "Fx"), ("all", "Fy"), ("all", "Mz")):

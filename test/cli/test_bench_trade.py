@@ -13,9 +13,8 @@ HEADER = ("stage,method,when,normal,tangential,strips_per_patch,points_per_strip
 class Trade(LabTest):
     def trade(self, methods):
         self.write("methods.csv", HEADER + methods)
-        done = self.run_program("bench", "trade", "--quick", "--methods", "methods.csv",
-                                "--contacts", CONTACTS, "--scenes", SCENES, "-o", "trade.csv")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.succeed("bench", "trade", "--quick", "--methods", "methods.csv",
+                     "--contacts", CONTACTS, "--scenes", SCENES, "-o", "trade.csv")
         return self.read("trade.csv")
 
     def test_errors_are_those_of_the_stage(self):

@@ -56,8 +56,7 @@ class Catalogue(ProgramTest):
                 ("profile", EXAMPLES / "cases/worn_wheel.whl", "-o", "profile.csv"))
         seen = 0
         for words in runs:
-            done = self.run_program(*words)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.succeed(*words)
             for option, table in zip(words, words[1:]):
                 if not str(option).startswith("-") or option == "--states":
                     continue
@@ -73,8 +72,7 @@ class Catalogue(ProgramTest):
         for words in (("--tangential", "none"), ("--normal", "equal_area"),
                       ("--tangential", "polach"), (), ("--smooth", "1", "--yield-shear-MPa", "300"),
                       ("--wear", self.law())):
-            done = self.run_program("contact", CASE, *map(str, words))
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.succeed("contact", CASE, *map(str, words))
             row = rows_of(done.stdout)[0]
             for one in self.rows:
                 if one["group"] == "contact" and one["column"] in row:

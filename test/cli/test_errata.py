@@ -35,8 +35,7 @@ class Errata(LabTest):
                                delta=1e-4)
 
     def test_a_file_leaves_lines_to_read(self):
-        done = self.run_program("errata", "-o", "errata.csv")
-        self.assertEqual(done.returncode, 0, msg=done.stderr)
+        done = self.succeed("errata", "-o", "errata.csv")
         self.assertIn("literal", done.stdout)
         self.assertEqual(list(rows_of((self.folder / "errata.csv").read_text())[0]), COLUMNS)
 

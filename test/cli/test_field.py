@@ -30,8 +30,7 @@ def fine_parabola(y):
 class Field(ProgramTest):
     def row(self, *words):
         """The row of a contact that is solved without a word but of its resolution."""
-        done = self.run_program("contact", *words)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeed("contact", *words)
         return rows_of(done.stdout)[0]
 
     def same(self, row, clean, relative):

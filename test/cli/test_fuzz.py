@@ -49,9 +49,8 @@ class Fuzz(LabTest):
     def test_no_case_of_a_plain_family_displeases_a_judge(self):
         for family in ("slender", "offset", "fine"):
             with self.subTest(family):
-                done = self.run_program("fuzz", "--cases", 200, "--first", 2001, "--family",
-                                        family, "-o", "cases.csv")
-                self.assertEqual(done.returncode, 0, done.stdout)
+                self.succeed("fuzz", "--cases", 200, "--first", 2001, "--family",
+                             family, "-o", "cases.csv")
                 rows = self.read("cases.csv")
                 self.assertEqual({row["family"] for row in rows}, {family})
                 for row in rows:
@@ -91,8 +90,7 @@ class Fuzz(LabTest):
         listed = self.run_program("fuzz", "--plant", "list").stdout.split()
         self.assertEqual(set(listed), set(FAULTS) | {"patch_lost"})
         cases = ("--cases", 600, "--family", "offset")
-        done = self.run_program("fuzz", *cases)
-        self.assertEqual(done.returncode, 0, done.stdout)
+        done = self.succeed("fuzz", *cases)
         for fault, (judge, share) in FAULTS.items():
             with self.subTest(fault):
                 done = self.run_program("fuzz", *cases, "--plant", fault, "-o", "planted.csv")
@@ -154,8 +152,7 @@ class Fuzz(LabTest):
                 self.assertIn("load", row["violation"].split(), row)
 
     def test_all_judges_are_asked(self):
-        done = self.run_program("fuzz", "--case", 100, "--thorough", "-o", "case.csv")
-        self.assertEqual(done.returncode, 0, done.stdout)
+        done = self.succeed("fuzz", "--case", 100, "--thorough", "-o", "case.csv")
         row = self.read("case.csv")[0]
         for judge in list(row)[list(row).index("answer"):]:
             self.assertGreaterEqual(float(row[judge]), 0.0, judge)

@@ -57,9 +57,9 @@ class GapInvariance(ProgramTest):
         self.assertEqual(set(found), {str(row[0]) for row in rows}, done.stderr)
         return found
 
-    def case(self, name, gap, demand, material="", motion="cksi = 0.001"):
-        self.write(name, f"&contact\n gap_file = '{gap}'\n {demand}\n/\n&material\n mu = 0.3\n"
-                         f" {material}\n/\n&motion\n {motion}\n/\n")
+    def case(self, name, gap, demand):
+        self.write(name, f"&contact\n gap_file = '{gap}'\n {demand}\n/\n&material\n mu = 0.3\n/\n"
+                         "&motion\n cksi = 0.001\n/\n")
 
     def test_heights_count_from_anywhere(self):
         shapes = gap_shapes(1)
@@ -157,9 +157,8 @@ class GapInvariance(ProgramTest):
             self.case("case.nml", "gap.csv", f"load_N = {load}")
             found = {}
             for method in ("hertz", "norm"):
-                done = self.run_program("contact", "case.nml", "--normal", method, "--tangential",
-                                        "tang")
-                self.assertEqual(done.returncode, 0, done.stderr)
+                done = self.succeed("contact", "case.nml", "--normal", method, "--tangential",
+                                    "tang")
                 found[method] = rows_of(done.stdout)[0]
             self.assertEqual(found["norm"]["status"], "ok", load)
             for figure in ("pmax_MPa", "penetration_mm", "area_mm2"):
@@ -210,11 +209,6 @@ class GapInvariance(ProgramTest):
         y = places(0.1, 20.0)
         self.gap("gap", y, [a * a / 500.0 for a in y])
         for nu in ("-0.5", "-1e-9", "0.5", "0.7", "-1"):
-            for body in ("wheel", "rail"):
-                self.case("case.nml", "gap.csv", "load_N = 1e5", f"nu_{body} = {nu}")
-                done = self.run_program("contact", "case.nml")
-                self.assertEqual(done.returncode, 1, (nu, body))
-                self.assertIn(f"nu_{body} must be at least 0 and below 0.5", done.stderr)
             for method in NORMAL:
                 row = self.batch([("a", "gap.csv", E, nu, 0.3, 1e5, "", 3e-4, 0, 0)], "--normal",
                                  method)["a"]

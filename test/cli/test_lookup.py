@@ -31,9 +31,7 @@ class Lookup(ProgramTest):
         return "table.fslt"
 
     def good(self, *words):
-        done = self.run_program(*words)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stdout
+        return self.succeed(*words).stdout
 
     def test_a_table_is_as_good_as_asked_for(self):
         table = self.table()

@@ -51,8 +51,7 @@ class LookupWheel(ProgramTest):
     def table(self):
         """A small table, made once."""
         if LookupWheel.made is None:
-            done = self.run_program("lookup", "wheel", "cone.nml", "-o", "made.fslt", *MAKE)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.succeed("lookup", "wheel", "cone.nml", "-o", "made.fslt", *MAKE)
             LookupWheel.said = done.stderr
             LookupWheel.made = (self.folder / "made.fslt").read_bytes()
         (self.folder / "table.fslt").write_bytes(LookupWheel.made)
@@ -66,9 +65,7 @@ class LookupWheel(ProgramTest):
         return max((1, 2), key=lambda slot: float(rows[slot - 1]["N_N"]))
 
     def good(self, *words):
-        done = self.run_program(*words)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stdout
+        return self.succeed(*words).stdout
 
     def test_a_table_says_what_it_is(self):
         text = self.good("lookup", "info", self.table())
@@ -80,10 +77,9 @@ class LookupWheel(ProgramTest):
 
     def test_no_cell_is_halved_below_the_least(self):
         # Thirteen nodes to begin with: cells of 0.29 mm, which would have to be halved.
-        done = self.run_program("lookup", "wheel", "cone.nml", "-o", "few.fslt", "--error", "0.4",
-                                "--y", "6:9.5", "--tests", "299", "--least-step", "0.2",
-                                "--strips", "5", "--points", "5")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeed("lookup", "wheel", "cone.nml", "-o", "few.fslt", "--error", "0.4",
+                            "--y", "6:9.5", "--tests", "299", "--least-step", "0.2",
+                            "--strips", "5", "--points", "5")
         self.assertIn("where contacts come or go the error asked for was not met", done.stderr)
         text = self.good("lookup", "info", "few.fslt")
         self.assertRegex(text, r"y, mm: 13 nodes, 6\.0\d* to 9\.5")

@@ -143,8 +143,7 @@ class Outputs(Netcdf):
         """The same with FILE.csv and with FILE.nc, but for times."""
         for ending in ("csv", "nc"):
             files = [(option, f"{option.strip('-')}.{ending}") for option in options]
-            done = self.run_program(*words, *(word for pair in files for word in pair))
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.succeed(*words, *(word for pair in files for word in pair))
         for option in options:
             name = option.strip("-")
             data, rows = self.opened(f"{name}.nc"), self.read(f"{name}.csv")
@@ -270,8 +269,7 @@ class Tables(Netcdf):
 
     def test_a_cell_that_is_no_number_is_left_out_and_told(self):
         self.write("t.csv", "case,mu,status\na,0.3,ok\nb,O.3,file_format\nc,x,file_format\n")
-        done = self.run_program("netcdf", "t.csv", "-o", "t.nc")
-        self.assertEqual(done.returncode, 0)
+        done = self.succeed("netcdf", "t.csv", "-o", "t.nc")
         self.assertEqual(done.stderr, "faststrip: left out: 2 cells that are no numbers, first in"
                                       " column mu, got 'O.3' (t.csv:3)\n")
         np.testing.assert_array_equal(self.opened("t.nc").mu.values, [0.3, np.nan, np.nan])

@@ -201,8 +201,7 @@ class TestMistakes(ProgramTest):
         rows = [f"{i},gap.csv,210000,0.28,{30 if i > 4 else 0.3},1e5,0.001,0,0"
                 for i in range(1, 41)]
         self.write("cases.csv", "\n".join([BATCH_COLUMNS, *rows]) + "\n")
-        done = self.run_program("batch", "cases.csv", "-o", "out.csv")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeed("batch", "cases.csv", "-o", "out.csv")
         self.assertEqual(done.stderr, "faststrip: mu should be at most 1.00000, got 30.0000:"
                                       " percent? (cases.csv:6, the first of 36)\n")
 
@@ -240,8 +239,7 @@ class TestUnusual(ProgramTest):
             rows.append(",".join(map(str, (i, f"gap{i}.csv", e, nu, mu, load, *creepage))))
         self.assertGreaterEqual(len(UNUSUAL), 30)
         self.write("cases.csv", "\n".join(rows) + "\n")
-        done = self.run_program("batch", "cases.csv", "-o", "out.csv")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeed("batch", "cases.csv", "-o", "out.csv")
         self.assertNotIn("should", done.stderr)
 
     @staticmethod
@@ -275,6 +273,5 @@ class TestUnusual(ProgramTest):
         ):
             with self.subTest(groups):
                 self.write("case.nml", profile_case(**groups))
-                done = self.run_program("contact", "case.nml")
-                self.assertEqual(done.returncode, 0, done.stderr)
+                done = self.succeed("contact", "case.nml")
                 self.assertNotIn("should", done.stderr)

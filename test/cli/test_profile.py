@@ -135,10 +135,8 @@ class Profiles(ProgramTest):
     def test_conversion_round_trips(self):
         self.write("w.txt", wheel_text())
         for path in ("a.csv", "a.prw"):
-            done = self.run_program("profile", "w.txt", "--kind", "wheel", "-o", path)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            done = self.run_program("profile", path, "--kind", "wheel", "-o", "b.csv")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.succeed("profile", "w.txt", "--kind", "wheel", "-o", path)
+            done = self.succeed("profile", path, "--kind", "wheel", "-o", "b.csv")
             points = [[float(x) for x in row.values()] for row in self.read("b.csv")]
             given = [[float(x) for x in line.split()] for line in wheel_text().splitlines()]
             self.assertEqual(points, given)
@@ -176,16 +174,14 @@ class Profiles(ProgramTest):
 
     def good_points(self, rail, path, cant):
         self.write("c.nml", profile_case(rail=f"profile = '{rail}', cant = {cant}"))
-        done = self.run_program("contact", "c.nml", "--profiles", path)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.succeed("contact", "c.nml", "--profiles", path)
 
     def test_a_case_takes_the_same_words(self):
         self.write("w.txt", wheel_text(scale=0.001))
         self.write("r.txt", rail_text() + "35.9 40\n")
         wheel = "profile = 'w.txt', unit = 'm'"
         self.write("c.nml", profile_case(wheel=wheel, rail="profile = 'r.txt', inclination = 0"))
-        done = self.run_program("contact", "c.nml")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeed("contact", "c.nml")
         self.assertIn("r.txt: 1 points clipped beyond y = 35.9945 mm", done.stderr)
         self.assertIn("# r.txt: 1 points clipped", done.stdout)
         self.write("c.nml", profile_case(wheel="profile = 'w.txt'"))
@@ -263,8 +259,7 @@ class Bank(ProgramTest):
                 continue
             self.assertEqual(done.returncode, 1, path.name)
             self.assertIn(TOLD[path.name][0], done.stderr)
-            done = self.run_program("profile", str(path), *TOLD[path.name])
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.succeed("profile", str(path), *TOLD[path.name])
 
     def test_what_programs_do_to_files_changes_no_profile(self):
         for path in sorted(BANK.glob("*.*")):
