@@ -7,8 +7,6 @@ from cli_program import ROOT, ProgramTest, gap_case, gap_text, rows_of
 
 CASES = ROOT / "example" / "cases"
 STEP = re.compile(r"(hertz|strip|norm) (\d+)(?: \+ ([a-z-]+)(?: (\d+))?)?: ([\d.e-]+) in (\d+) us")
-ESTIMATES = {"pmax": "est_err_pmax", "penetration": "est_err_penetration",
-             "area": "est_err_area"}
 
 
 def steps_of(row):
@@ -27,8 +25,7 @@ class Auto(ProgramTest):
 
     def missed(self, case, *words):
         """The row of a case, which did not."""
-        done = self.run_program("contact", case, "--normal", "auto", *words)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.succeed("contact", case, "--normal", "auto", *words)
         row = rows_of(done.stdout)[0]
         self.assertEqual(row["status"], "target_missed")
         self.assertRegex(done.stderr, r"^faststrip: the estimated error of the target, ")
@@ -58,19 +55,6 @@ class Auto(ProgramTest):
                 chosen = self.auto(case, "--target", target, "--tolerance", "0.1")
                 self.assert_close(float(chosen[name]), float(fine[name]), relative=0.12,
                                   what=(example, target))
-
-    def test_the_last_step_meets_the_tolerance_and_no_other_does(self):
-        case = self.smooth_case()
-        for target, tolerance in (("forces", 0.025), ("pmax", 0.006), ("penetration", 0.003),
-                                  ("area", 0.02), ("power", 0.08)):
-            row = self.auto(case, "--target", target, "--tolerance", tolerance)
-            steps = steps_of(row)
-            estimates = [step[4] for step in steps]
-            self.assertLessEqual(estimates[-1], 1.01 * tolerance, row["choice"])
-            self.assertTrue(all(value > tolerance for value in estimates[:-1]), row["choice"])
-            self.assertGreater(len(steps), 1, row["choice"])
-            if target in ESTIMATES:
-                self.assert_close(float(row[ESTIMATES[target]]), estimates[-1], 0.06, what=target)
 
     def test_smaller_tolerances_take_more_strips(self):
         case, strips = self.smooth_case(), []

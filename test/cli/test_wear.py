@@ -21,33 +21,16 @@ class Wear(ProgramTest):
         self.write("case.nml", gap_case(motion=MOTION))
         self.write("law.csv", law())
 
-    def test_t_gamma_of_every_method(self):
-        for method in ("faststrip", "fastsim", "linear", "polach"):
-            row = self.good("contact", "case.nml", "--tangential", method)[0]
-            fx, fy, mz, cksi, ceta, cphi, area = (
-                float(row[name]) for name in ("Fx_N", "Fy_N", "Mz_Nmm", "cksi", "ceta",
-                                              "cphi_rad_per_mm", "area_mm2"))
-            plain = abs(fx * cksi) + abs(fy * ceta)
-            self.assertGreater(plain, 10.0)
-            self.assert_close(float(row["t_gamma_N"]), plain, 1e-12, what=method)
-            self.assert_close(float(row["t_gamma_spin_N"]), plain + abs(mz * cphi), 1e-12)
-            self.assert_close(float(row["t_gamma_per_area_N_per_mm2"]), plain / area, 1e-12)
-            for name in ("fatigue_index", "wear_ug_per_m", "wear_mm3_per_m"):
-                self.assertEqual(row[name], "")
+    def test_without_forces_there_is_no_t_gamma(self):
         row = self.good("contact", "case.nml", "--tangential", "none", "--yield-shear-MPa",
                         "300")[0]
         for name in ("t_gamma_N", "t_gamma_spin_N", "t_gamma_per_area_N_per_mm2", "fatigue_index"):
             self.assertEqual(row[name], "", name)
-
-    def test_the_fatigue_index(self):
-        row = self.good("contact", "case.nml", "--normal", "hertz", "--yield-shear-MPa", "250")[0]
-        load = float(row["N_N"])
-        used = math.hypot(float(row["Fx_N"]), float(row["Fy_N"])) / load
-        self.assert_close(float(row["fatigue_index"]), used - 250.0 / float(row["pmax_MPa"]), 1e-9)
-        self.write("in.nml", gap_case(motion=MOTION,
-                                      extra="&numerics\n normal = 'hertz'\n"
-                                            " yield_shear_MPa = 250\n/\n"))
-        self.assertEqual(self.good("contact", "in.nml")[0]["fatigue_index"], row["fatigue_index"])
+        # Without a law and a yield stress in shear neither wear nor fatigue is known.
+        row = self.good("contact", "case.nml", "--tangential", "linear")[0]
+        self.assertNotEqual(row["t_gamma_N"], "")
+        for name in ("fatigue_index", "wear_ug_per_m", "wear_mm3_per_m"):
+            self.assertEqual(row[name], "", name)
 
     def test_strips_add_up_to_the_contact(self):
         row = self.good("contact", "case.nml", "--wear", "law.csv", "--strips", "s.csv")[0]
@@ -119,8 +102,7 @@ class Wear(ProgramTest):
 
     def test_a_law_that_ends_below(self):
         self.write("short.csv", law("0,0.001,0,4\n"))
-        done = self.run_program("contact", "case.nml", "--wear", "short.csv", "--strips", "s.csv")
-        self.assertEqual(done.returncode, 0)
+        done = self.succeed("contact", "case.nml", "--wear", "short.csv", "--strips", "s.csv")
         self.assertRegex(done.stderr, r"\Afaststrip: no wear: the wear law ends at a T gamma/A of"
                                       r" 0\.10*E-2 N/mm2, got [^\n]+\n\Z")
         self.assertIn(",,\n", done.stdout)
@@ -135,14 +117,17 @@ class Wear(ProgramTest):
         self.assertIn("faststrip: row 1: no wear: ", done.stderr)
 
     def test_bad_laws_are_refused(self):
-        self.write("bad.csv", law("0,10,0,4\n11,20,1,0\n"))
-        self.refused(1, "contact", "case.nml", "--wear", "bad.csv", says=["11", "bad.csv:6"])
-        self.write("no_source.csv", law().replace("# source", "# words"))
-        self.refused(1, "batch", "b.csv", "--wear", "no_source.csv", says=["source"])
-        self.refused(1, "contact", "case.nml", "--wear", "missing.csv", says=["missing.csv"])
-        self.write("bad.nml", gap_case(extra="&numerics\n wear_file = 'missing.csv'\n/\n"))
-        self.refused(1, "contact", "bad.nml", says=["missing.csv"])
-        self.write("yield.nml", gap_case(extra="&numerics\n yield_shear_MPa = -1\n/\n"))
-        self.refused(1, "contact", "yield.nml", says=["yield_shear_MPa", "-1"])
-        self.refused(2, "contact", "case.nml", "--wear", "law.csv", "-o", "law.csv",
-                     says=["law.csv"])
+        for name, text in (("bad.csv", law("0,10,0,4\n11,20,1,0\n")),
+                           ("no_source.csv", law().replace("# source", "# words")),
+                           ("bad.nml", gap_case(extra="&numerics\n wear_file = 'none.csv'\n/\n")),
+                           ("yield.nml", gap_case(extra="&numerics\n yield_shear_MPa = -1\n/\n"))):
+            self.write(name, text)
+        for code, says, words in (
+                (1, ["11", "bad.csv:6"], ("contact", "case.nml", "--wear", "bad.csv")),
+                (1, ["source"], ("batch", "b.csv", "--wear", "no_source.csv")),
+                (1, ["missing.csv"], ("contact", "case.nml", "--wear", "missing.csv")),
+                (1, ["none.csv"], ("contact", "bad.nml")),
+                (1, ["yield_shear_MPa", "-1"], ("contact", "yield.nml")),
+                (2, ["law.csv"], ("contact", "case.nml", "--wear", "law.csv", "-o", "law.csv"))):
+            with self.subTest(words):
+                self.refused(code, *words, says=says)

@@ -45,23 +45,6 @@ class Wheelset(ProgramTest):
         self.write("states.csv", "\n".join([header, *states]) + "\n")
         return self.good("wheelset", case, "--states", "states.csv")
 
-    def test_a_wheelset_that_starts_or_stops_has_coulombs_force(self):
-        speeds = ("0", "1e-320", "1e-9", "1e-3", "-1e-9", "-0")
-        self.write("axle.nml", CASE.replace("'uic60'", "'60e1'\n  cant = 0.025"))
-        rows = self.solved(*(f"{speed},both,0,,0,{speed},0,160000,1" for speed in speeds),
-                           header=HEADER + ",vy_mm_s", case="axle.nml")
-        self.assertEqual([row["status"] for row in rows], ["ok"] * 2 * len(speeds))
-        for left, right in zip(rows[::2], rows[1::2], strict=True):
-            normal = float(left["N_N"]) + float(right["N_N"])
-            force = float(left["Fs_N"]) + float(right["Fs_N"])
-            self.assert_close(force, 0.3 * normal, absolute=0.3, what=left["case"])
-            self.assert_close(force, 4.8e4, absolute=200.0, what=left["case"])
-        # Rolling back is the image of rolling ahead.
-        ahead, back = rows[4:6], rows[8:10]
-        for one, other in zip(ahead, back, strict=True):
-            self.assertEqual(float(one["Fx_N"]), -float(other["Fx_N"]))
-            self.assertEqual(one["Fs_N"], other["Fs_N"])
-
     def test_a_wheelset_at_rest_is_named(self):
         self.write("states.csv", f"{HEADER}\nstill,right,0,0,0,0,0,1e4\non,right,0,0,0,1,,1e4\n")
         run = self.run_program("wheelset", "case.nml", "--states", "states.csv")
@@ -142,31 +125,6 @@ class Wheelset(ProgramTest):
         rows = self.good("wheelset", "case.nml", "--states", "states.csv", "--near-jumps", "1e5")
         self.assertEqual([(row["solution"], float(row["y_mm"])) for row in rows],
                          [("1", 0.0), ("3", 100.0)])
-
-    def test_a_mirror_changes_signs_only(self):
-        right = self.solved("1,right,6,-0.0005,0.01,20000,-43.4,60000")
-        left = self.solved("1,left,-6,0.0005,-0.01,20000,-43.4,60000")
-        for row, image in zip(right, left, strict=True):
-            for name in ("x_track_mm", "N_N", "Fx_N", "pmax_MPa", "cksi", "z_mm", "radius_mm"):
-                self.assertEqual(row[name], image[name], name)
-            for name in ("y_track_mm", "contact_angle_rad", "ceta", "cphi_rad_per_mm", "Fs_N",
-                         "Mz_Nmm", "y_wheel_mm", "y_rail_mm", "Fy_track_N", "roll_rad"):
-                self.assertEqual(float(row[name]), -float(image[name]), name)
-
-    def test_forces_of_the_frames_are_one_force(self):
-        self.is_doubtful = True  # no steel carries the flange of a new wheel
-        rows = self.solved("1,both,7,,0.015,20000,,120000")
-        for row in rows:
-            angle, load = float(row["contact_angle_rad"]), float(row["N_N"])
-            side = float(row["Fs_N"])
-            self.assert_close(float(row["Fz_track_N"]),
-                              load * math.cos(angle) + side * math.sin(angle), 1.0e-12)
-            self.assert_close(float(row["Fy_track_N"]),
-                              side * math.cos(angle) - load * math.sin(angle), 1.0e-12)
-            track = math.dist([0, 0, 0], [float(row[f"F{k}_track_N"]) for k in "xyz"])
-            ahead = math.dist([0, 0, 0], [float(row[f"F{k}_wheelset_N"]) for k in "xyz"])
-            self.assert_close(track, ahead, 1.0e-12)
-        self.assert_close(sum(float(row["Fz_track_N"]) for row in rows), 120000, 1.0e-10)
 
     def test_a_roll_that_is_found_and_given_again(self):
         found = self.solved("a,both,3,,0.002,20000,-43.4,100000")
@@ -397,34 +355,6 @@ class Wheelset(ProgramTest):
         self.assertEqual(run.returncode, 1)
         self.assertIn("--profiles-of: no state of that name has a result, got b", run.stderr)
         self.assertFalse((self.folder / "q.csv").exists())
-
-    def test_rails_beside_their_places(self):
-        names = ("rail_right_y_mm,rail_right_z_mm,rail_right_roll_rad,rail_right_vy_mm_s,"
-                 "rail_left_y_mm,rail_left_z_mm,rail_left_roll_rad,rail_left_vy_mm_s")
-        state = "20000,-43.4,120000"
-        rows = self.solved(f"a,both,3.5,,0.004,{state},0.5,0.25,0.01,4,0.5,0.25,-0.02,6",
-                           f"a,both,-3.5,,-0.004,{state},-0.5,0.25,0.02,-6,-0.5,0.25,-0.01,-4",
-                           f"b,both,3,,0.004,{state},0,0,0.01,4,0,0,-0.02,6",
-                           f"c,both,3,,0.004,{state},0,0,0.01,0,0,0,-0.02,0",
-                           header=f"{HEADER},{names}")
-        self.assertEqual([row["side"] for row in rows], ["left", "right"] * 4)
-        left, right, left_image, right_image, *others = rows
-        for row, image in ((left, right_image), (right, left_image)):
-            self.assert_close(float(row["N_N"]), float(image["N_N"]), 1.0e-9)
-            for name in ("y_track_mm", "y_rail_mm", "contact_angle_rad", "ceta", "Fs_N"):
-                self.assert_close(float(row[name]), -float(image[name]), 1.0e-7, what=name)
-            for name in ("z_track_mm", "z_rail_mm", "z_mm"):
-                self.assert_close(float(row[name]), float(image[name]), absolute=1.0e-8, what=name)
-        # Track and wheelset moved together; with the rail's motion the wheel creeps less.
-        for row, there, still, speed in zip((left, right), others[:2], others[2:], (6.0, 4.0),
-                                            strict=True):
-            for name, moved in (("y_track_mm", 0.5), ("z_track_mm", 0.25), ("z_mm", 0.25),
-                                ("y_rail_mm", 0.0)):
-                self.assert_close(float(row[name]) - moved, float(there[name]), absolute=1.0e-6,
-                                  what=name)
-            more = float(there["ceta"]) - float(still["ceta"])
-            creeping = math.cos(float(row["contact_angle_rad"])) * speed
-            self.assert_close(more, creeping / float(row["rolling_speed_mm_s"]), absolute=1.0e-6)
 
     def test_a_rail_of_the_group_state(self):
         state = "&state\n side='right'\n y_mm=2.0\n roll_rad=0.0\n yaw_rad=0.0\n" \
