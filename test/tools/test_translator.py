@@ -18,81 +18,50 @@ class Refusals(unittest.TestCase):
             self.assertIn(words, result.stderr)
             self.assertEqual(list(sample.generated.iterdir()), [])
 
-    def refused_line(self, line, words):
-        text = module("test_x", test("one", "@assertTrue(.true.)", line))
-        self.refused(text, "test_x.pf:10", words)
-
-    def test_unknown_directives(self):
-        for line in ("@assertNotEqual(1, 2)", "@mpiTest", "@asserttrue(.true.)", "@", "@ test"):
-            with self.subTest(line):
-                self.refused_line(line, "unknown directive")
-        for line in ("@testCase", "@testParameter(constructor=x)", "@suite(name='s')"):
-            with self.subTest(line):
-                self.refused_line(line, "unknown directive")
-
-    def test_directives_with_options(self):
-        self.refused_line("@test(npes=[1])", "takes nothing after it")
-        self.refused_line("@before ! each", "takes nothing after it")
-
-    def test_assertions_that_are_not_whole(self):
-        for line in (
-            "@assertTrue(.true.) ! why",
-            "@assertTrue(.true.); return",
-            "@assertEqual(1, &",
-            "@assertEqual(1, (2)",
-            "@assertEqual(1, [2)",
-            "@assertEqual('a, 'b')",
-            "@assertEqual(1, , 2)",
-            "@assertTrue",
-            "@assertTrue(a) .and. (b)",
+    def test_lines_of_a_test(self):
+        not_whole = "is not one whole call on one line"
+        for line, says in (
+            *((line, "unknown directive") for line in (
+                "@assertNotEqual(1, 2)", "@mpiTest", "@asserttrue(.true.)", "@", "@ test",
+                "@testCase", "@testParameter(constructor=x)", "@suite(name='s')")),
+            ("@test(npes=[1])", "takes nothing after it"),
+            ("@before ! each", "takes nothing after it"),
+            *((line, not_whole) for line in (
+                "@assertTrue(.true.) ! why", "@assertTrue(.true.); return", "@assertEqual(1, &",
+                "@assertEqual(1, (2)", "@assertEqual(1, [2)", "@assertEqual('a, 'b')",
+                "@assertEqual(1, , 2)", "@assertTrue", "@assertTrue(a) .and. (b)")),
+            ("@assertEqual(1)", "needs at least 2 arguments"),
+            ("@assertTrue()", "needs at least 1 arguments"),
+            ("@assertRelativelyEqual(1.0, 2.0)", "needs at least 3 arguments"),
+            ("@assertTrue(.true., location=here)", "location"),
+            (f"@assertTrue({'.not. ' * 20}.true.)", "columns"),
+            ("@disable", "has to follow @test"),
         ):
             with self.subTest(line):
-                self.refused_line(line, "is not one whole call on one line")
+                text = module("test_x", test("one", "@assertTrue(.true.)", line))
+                self.refused(text, "test_x.pf:10", says)
 
-    def test_too_few_arguments(self):
-        self.refused_line("@assertEqual(1)", "needs at least 2 arguments")
-        self.refused_line("@assertTrue()", "needs at least 1 arguments")
-        self.refused_line("@assertRelativelyEqual(1.0, 2.0)", "needs at least 3 arguments")
-
-    def test_a_location_of_ones_own(self):
-        self.refused_line("@assertTrue(.true., location=here)", "location")
-
-    def test_a_line_that_would_not_fit(self):
-        self.refused_line(f"@assertTrue({'.not. ' * 20}.true.)", "columns")
-
-    def test_an_assertion_before_the_subroutine(self):
-        text = module("test_x", "    @test\n    @assertTrue(.true.)\n")
-        self.refused(text, "test_x.pf:8", "where a subroutine has to follow")
-
-    def test_a_test_without_subroutine(self):
-        text = module("test_x", "    @test\n    integer function f()\n    end function f\n")
-        self.refused(text, "test_x.pf:8", "a subroutine without arguments")
-        self.refused("module test_x\n@test\n", "test_x.pf:2", "no subroutine follows")
-
-    def test_a_test_with_arguments(self):
-        text = module("test_x", "    @test\n    subroutine t(this)\n    end subroutine t\n")
-        self.refused(text, "test_x.pf:8", "a subroutine without arguments")
-
-    def test_disable_in_the_wrong_place(self):
-        self.refused_line("@disable", "has to follow @test")
-        text = module("test_x", "    @disable\n    @test\n    subroutine t()\n")
-        self.refused(text, "test_x.pf:7", "has to follow @test")
-        text = module("test_x", "    @before\n    @disable\n    subroutine t()\n")
-        self.refused(text, "test_x.pf:8", "has to follow @test")
-
-    def test_two_of_a_kind(self):
+    def test_what_is_between_tests(self):
         once = "    @before\n    subroutine {0}()\n    end subroutine {0}\n"
-        twice = once.format("a") + once.format("b")
-        self.refused(module("test_x", twice), "test_x.pf:10", "a second @before")
-        self.refused(module("test_x", test("t") + test("T")), "test_x.pf:11", "a second test T")
-
-    def test_a_file_without_tests(self):
-        self.refused(module("test_x", ""), "test_x.pf:1", "there is no @test")
+        no_subroutine = "a subroutine without arguments"
+        for body, line, says in (
+            ("    @test\n    @assertTrue(.true.)\n", 8, "where a subroutine has to follow"),
+            ("    @test\n    integer function f()\n    end function f\n", 8, no_subroutine),
+            ("    @test\n    subroutine t(this)\n    end subroutine t\n", 8, no_subroutine),
+            ("    @disable\n    @test\n    subroutine t()\n", 7, "has to follow @test"),
+            ("    @before\n    @disable\n    subroutine t()\n", 8, "has to follow @test"),
+            (once.format("a") + once.format("b"), 10, "a second @before"),
+            (test("t") + test("T"), 11, "a second test T"),
+            ("", 1, "there is no @test"),
+        ):
+            with self.subTest(says, body=body):
+                self.refused(module("test_x", body), f"test_x.pf:{line}", says)
 
     def test_names_that_do_not_fit(self):
         self.refused(GOOD, "test_other.pf:1", "not named as its file", name="test_other.pf")
         self.refused(GOOD, "good.pf:1", "named test_<thing>.pf", name="good.pf")
         self.refused("subroutine t()\nend\n", "test_x.pf:1", "there is no module")
+        self.refused("module test_x\n@test\n", "test_x.pf:2", "no subroutine follows")
 
     def test_modules_of_the_same_name(self):
         with Sample({"a/test_good.pf": GOOD, "b/test_good.pf": GOOD}) as sample:
