@@ -1,5 +1,5 @@
 !> Tables of comma-separated values read row by row, however long they are: nothing but a buffer is
-!> in memory. The dialect stands in `faststrip_files_csv`; a line that is no row is told as
+!> in memory. The dialect stands in `faststrip_files_csv`; a line that is no row is reported as
 !> `read_csv` tells it.
 module faststrip_files_csv_stream
     use, intrinsic :: iso_fortran_env, only: int64

@@ -35,7 +35,7 @@ module faststrip_files_lines
         integer :: line = 0                   !! number of the line read last
         character(kind=c_char, len=:), allocatable :: buffer !! of the file, what is read on
         logical :: is_hashed = .false.        !! is `hash` of all that is read?
-        type(sha256_t) :: hash                !! started by who asks for it, before the first line
+        type(sha256_t) :: hash                !! started by the caller, before the first line
         character(len=:), allocatable :: without !! in messages: what the limits are without, or ''
         integer, private :: lines = 0         !! that count for the limit
         integer, private :: bytes = 0         !! the same

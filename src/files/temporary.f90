@@ -9,7 +9,7 @@ module faststrip_files_temporary
     public :: find_free_temporary, find_final_path
 
     !> What is written goes to a file of the name `faststrip_HOST_PROCESS_NUMBER.tmp` beside its
-    !> place first; by host and process a file that a killed run left is told from that of a run
+    !> place first; by host and process a file that a killed run left is known from that of a run
     !> which goes on.
     character(len=*), parameter :: temporary_ending = '.tmp'
     !> The numbers go up to this.

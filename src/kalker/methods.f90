@@ -59,7 +59,7 @@ module faststrip_kalker_methods
         others_t(one_us=10.0_wp, one=2.6_wp, order=1.8_wp)]
 
     abstract interface
-        !> Is told of the elements in contact before they are solved.
+        !> Gets the elements in contact before they are solved.
         subroutine tang_watch(elements, with_norm)
             integer, intent(in) :: elements  !! in contact
             logical, intent(in) :: with_norm !! both problems in turn?
@@ -113,8 +113,8 @@ contains
                                                                !! for `release_kalker`
         type(status_t), intent(out) :: status
             !! those of `enter_normal_method`; `st_workspace_too_small`, not enough memory
-        procedure(norm_watch), optional :: watch_norm          !! is told of each grid of NORM
-        procedure(tang_watch), optional :: watch_tang          !! is told of each grid of TANG
+        procedure(norm_watch), optional :: watch_norm          !! is called for each grid of NORM
+        procedure(tang_watch), optional :: watch_tang          !! is called for each grid of TANG
 
         integer :: failure
 
@@ -177,7 +177,7 @@ contains
     end subroutine reserve_norm_method
 
     !> Solve by NORM, from a coarser grid or from strips; if these fail, from the coarser grid. Its
-    !> rows become the strips of the contact, for the tangential methods and who asks for strips.
+    !> rows become the strips of the contact, for the tangential methods and callers.
     subroutine solve_by_norm(self, workspace, case, normal, status)
         class(norm_method_t), intent(in) :: self      !! NORM
         type(workspace_t), intent(inout) :: workspace !! its strips are filled, and grow

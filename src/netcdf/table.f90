@@ -200,7 +200,7 @@ contains
                                status)
     end subroutine next_row
 
-    ! The attributes of the whole file. The time is not told: the same table is the same file.
+    ! The attributes of the whole file. The time is left out: the same table is the same file.
     subroutine describe_table(file, what, comments)
         type(netcdf_file_t), intent(inout) :: file
         type(conversion_t), intent(in) :: what

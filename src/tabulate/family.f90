@@ -62,8 +62,8 @@ module faststrip_tabulate_family
         integer :: most_rounds = 1    !! tables made
         real(wp) :: most_nodes = 0.0_wp !! of a table
         character(len=:), allocatable :: words !! how the table is made
-        procedure(tell_progress), pointer, nopass :: progress => null() !! told how far work is
-        procedure(tell), pointer, nopass :: note => null()              !! told what is of note
+        procedure(tell_progress), pointer, nopass :: progress => null() !! gets how far work is
+        procedure(tell), pointer, nopass :: note => null()              !! gets what is of note
     contains
         !> First places of an axis, and the layout of its samples.
         procedure(start_i), deferred :: start
@@ -203,7 +203,7 @@ module faststrip_tabulate_family
 
 contains
 
-    !> Nobody is told how far work is, nor what is of note.
+    !> Nothing is reported: neither how far work is nor what is of note.
     subroutine keep_quiet(family)
         class(family_t), intent(inout) :: family !! `progress` and `note` may be set afterwards
 

@@ -84,13 +84,13 @@ def module(fitted):
     parts = [HEAD]
     factors = ellipse[2]["outputs"]
     for name, value, text in (
-            ("n_ellipse_inputs", ellipse[0]["inputs"], "What both networks are told."),
+            ("n_ellipse_inputs", ellipse[0]["inputs"], "Inputs of both networks."),
             ("n_shape_inputs", shape[0]["inputs"] - ellipse[0]["inputs"],
-             "What the second one is told besides."),
+             "Further inputs of the second one."),
             ("hidden", ellipse[0]["outputs"], "Units of each of their two layers."),
             ("n_factors", factors, "Factors that an ellipse has."),
             ("n_side_factors", shape[2]["outputs"] - factors, "Factors of the odd numbers."),
-            ("n_error_inputs", errors[0]["inputs"], "What the network of the errors is told."),
+            ("n_error_inputs", errors[0]["inputs"], "Inputs of the network of the errors."),
             ("error_hidden", errors[0]["outputs"], "Units of each of its layers."),
             ("n_errors", errors[2]["outputs"], "Errors that it estimates."),
             ("n_sides", len(fitted["side_scale"]), "Odd numbers of the shape in the forces.")):

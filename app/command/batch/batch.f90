@@ -322,7 +322,7 @@ contains
         ! A manifest that is not that of what is there: then length says nothing.
         by_length = len(value_of(made, 'bytes')) == 0
         if (.not. is_there) then
-            ! What is in the way shall be told before anything is solved.
+            ! What is in the way is reported before anything is solved.
             call open_store(store, path, .true., .true., status, is_busy)
             call fail_on_error(status)
             call release_store(store)

@@ -32,7 +32,7 @@ contains
         if (.not. given(command, '-o')) call usage_error('missing -o FILE.nc', command%name)
         if (.not. is_netcdf(option_text(command, '-o', ''))) &
             call refuse_value(command, '-o', 'a file that ends with .nc')
-        ! What is no table is told before a library is loaded.
+        ! What is no table is refused before a library is loaded.
         call read_table(command%arguments(1)%text, lookup)
         call write_netcdf_lookup(command%arguments(1)%text, option_text(command, '-o', ''), status)
         call fail_on_error(status)

@@ -11,7 +11,7 @@ module faststrip_command_program_clock
     public :: microseconds, cpu_microseconds, median, spread_of, spread_text
     public :: spread_names, cpu_columns
 
-    !> What is told of many runs, and the columns that tell it.
+    !> What is reported of many runs, and the columns for it.
     character(len=*), parameter :: spread_names(3) = [character(len=6) :: 'median', 'p95', 'worst']
     character(len=*), parameter :: cpu_columns(3) = 'cpu_us_' // spread_names
 

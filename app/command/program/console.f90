@@ -27,8 +27,8 @@ module faststrip_command_program_console
     ! Which of the two programs speaks.
     character(len=16) :: speaker = 'faststrip'
 
-    !> What seems wrong in the input, though it can be solved: told with the result, in its comments
-    !> too, or with the error that it may be the cause of.
+    !> What seems wrong in the input, though it can be solved: reported with the result, in its
+    !> comments too, or with the error that it may be the cause of.
     type :: held_t
         character(len=:), allocatable :: text
     end type held_t

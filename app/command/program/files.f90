@@ -142,7 +142,7 @@ contains
         character(len=:), allocatable :: temporary
         integer :: i
 
-        ! Before the name is looked up, so that two outputs in a new folder are told apart.
+        ! Before the name is looked up, so that two outputs in a new folder are distinguished.
         if (index(path, '/dev/') /= 1) call make_folders(path)
         output = used_of(path, option)
         if (path == '-') output = used_of('/dev/stdout', option)

@@ -306,14 +306,14 @@ contains
         is_printed = c_print(line // c_null_char) == 0
     end function is_printed
 
-    !> Say which of the programs speaks when a signal ends it or long work is told of.
+    !> Say which of the programs speaks when a signal ends it or long work is reported.
     subroutine set_speaker(name)
         character(len=*), intent(in) :: name !! of the program
 
         call c_set_speaker(name // c_null_char)
     end subroutine set_speaker
 
-    !> Say what is being done; it is told only if it takes long.
+    !> Say what is being done; it is reported only if it takes long.
     subroutine set_progress(text)
         character(len=*), intent(in) :: text !! a few words
 

@@ -1,5 +1,5 @@
-!> What seems wrong in what was read though it can be solved: kept until the result is told; of many
-!> rows one line for each kind.
+!> What seems wrong in what was read though it can be solved: kept until the result is reported; of
+!> many rows one line for each kind.
 module faststrip_command_settings_doubts
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp

@@ -57,7 +57,7 @@ contains
         end associate
     end subroutine read_option
 
-    !> For the table of a subcommand that solves contacts; the names are told by `method_notes`.
+    !> For the table of a subcommand that solves contacts; `method_notes` explain the names.
     function method_options() result(options)
         type(option_t), allocatable :: options(:)
 

@@ -18,7 +18,7 @@ module faststrip_command_settings_methods
     ! Given: millimetres of a micrometre.
     real(wp), parameter :: mm_per_um = 1.0e-3_wp
 
-    !> A contact's case with what only people give, or need to be told.
+    !> A contact's case with what only people give, or need to see.
     type, extends(contact_case_t) :: settings_t
         character(len=:), allocatable :: wear_file   !! of the wear law; or not allocated
         character(len=:), allocatable :: wear_source !! what the file names as its source

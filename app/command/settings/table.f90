@@ -456,7 +456,7 @@ contains
         end select
     end function is_within
 
-    !> A number, also one that is not finite: this is told in other words.
+    !> A number, also one that is not finite: this is reported in other words.
     pure subroutine read_number(text, number, is_read)
         character(len=*), intent(in) :: text
         real(wp), intent(out) :: number

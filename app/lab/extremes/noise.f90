@@ -306,7 +306,7 @@ contains
     end subroutine round_influence
 
     !> A contact in the four rounding modes: by the whole library, which rounds to nearest whatever
-    !> its host does, or by its solvers called directly, which do as they are told.
+    !> its host does, or by its solvers called directly, which do as they are asked.
     subroutine round_contact(solver, whole, contact, writer)
         type(solver_t), intent(inout) :: solver
         logical, intent(in) :: whole

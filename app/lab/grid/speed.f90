@@ -122,7 +122,7 @@ contains
         end do
         do k = 1, size(columns)
             do i = 1, size(cases)
-                ! Numbers are told in us, too.
+                ! Numbers are reported in us, too.
                 call put_time(writer, 'influence', trim(columns(k)), cases(i)%name, &
                               1.0e-3_wp*ns(k, i))
             end do

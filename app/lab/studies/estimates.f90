@@ -204,7 +204,7 @@ contains
         call release_norm(norm)
     end subroutine try_gaps
 
-    !> A contact of which all but name and load is as it is without being told.
+    !> A contact of which all but name and load is the default.
     type(studied_case_t) function named(name, load) result(contact)
         character(len=*), intent(in) :: name
         real(wp), intent(in) :: load

@@ -3,7 +3,7 @@
 !> The number is scaled by powers of ten in pairs of doubles, a sum of a double and of what is left
 !> over (T.J. Dekker, Numer. Math. 18 (1971) 224-242), with some 100 bits. Where what is left over
 !> lies so near to the middle between two results that these do not tell to which side, the answer
-!> is "not sure", and who asks does it the long way. So the bits are those of the long way.
+!> is "not sure", and the caller does it the long way. So the bits are those of the long way.
 module faststrip_base_decimal
     use, intrinsic :: iso_fortran_env, only: int64, real64
     implicit none
@@ -21,7 +21,7 @@ module faststrip_base_decimal
     ! Tuned [1]: largest power of ten in use. Origin: safeguard: no product overflows or leaves less
     ! than a double holds.
     integer, parameter :: farthest = 66
-    ! Tuned [1]: how near to the middle is not told, of the distance. Origin: safeguard: the errors
+    ! Tuned [1]: how near to the middle is not known, of the distance. Origin: safeguard: the errors
     ! of the pairs are below 2**(-45).
     real(real64), parameter :: doubt = 2.0_real64**(-36)
 

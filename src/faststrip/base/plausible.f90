@@ -21,14 +21,14 @@ module faststrip_base_plausible
     !> No bound.
     real(wp), parameter :: any_size = huge(1.0_wp)
 
-    !> What a range is told over: a number, or a power of the rolling radius.
+    !> What a range is given over: a number, or a power of the rolling radius.
     integer, parameter :: over_one = 0, over_radius = 1, over_area = 2, over_curvature = -1
 
     !> A quantity. Its ranges are those of its size, whatever its sign; 0 is never too small.
     type :: quantity_t
         character(len=26) :: name = ''   !! in a few words
         character(len=10) :: unit = ''   !! of ranges, with the power of the radius
-        integer :: power = 0             !! of the rolling radius that it is told over
+        integer :: power = 0             !! of the rolling radius that it is given over
         real(wp) :: possible = any_size  !! what no contact goes beyond
         real(wp) :: least = 0.0_wp       !! in practice
         real(wp) :: most = any_size      !! in practice
@@ -115,7 +115,7 @@ contains
     end function stiffness
 
     !> Words about a number that is outside of practice: what it should be, what was got, the likely
-    !> mistake. Blank where there is nothing to say, also of what is told over a radius that is not
+    !> mistake. Blank where there is nothing to say, also of what is given over a radius that is not
     !> known, or itself in doubt.
     pure function doubt_about(quantity, name, value, radius) result(words)
         integer, intent(in) :: quantity          !! place in the table
@@ -155,7 +155,7 @@ contains
         call add_words(words, '?')
     end function likely_mistake
 
-    !> Is a number within practice? It counts as such where it is told over a radius that is not
+    !> Is a number within practice? It counts as such where it is given over a radius that is not
     !> known, or itself in doubt, and where it is not finite, which others refuse.
     pure logical function is_plausible(quantity, value, radius)
         integer, intent(in) :: quantity          !! place in the table

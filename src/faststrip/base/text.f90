@@ -1,4 +1,4 @@
-!> Words and numbers of a text, read strictly; how an error in a file is told.
+!> Words and numbers of a text, read strictly; how an error in a file is reported.
 !>
 !> Lengths of function results are found by functions: where they are deferred (`len=:`), gfortran
 !> 12 keeps the length of a result in memory that all threads share.
@@ -94,7 +94,7 @@ contains
         is_blank = letter == ' ' .or. letter == tab
     end function is_blank
 
-    ! A number of as few digits as are told at a glance.
+    ! A number of as few digits as are read at a glance.
     pure subroutine parse_usual_real(word, value, valid)
         character(len=*), intent(in) :: word
         real(wp), intent(out) :: value

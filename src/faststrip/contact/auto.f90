@@ -188,7 +188,7 @@ contains
         search%case%friction = case%friction
         search%case%creepage = case%creepage
         search%case%asked%strip_forces = wants_strip_forces(case)
-        ! What is under resolved for the target is told in the end.
+        ! What is under resolved for the target is reported in the end.
         search%case%resolution_limit = huge(1.0_wp)
         search%case%force_limit = huge(1.0_wp)
     end subroutine begin_search

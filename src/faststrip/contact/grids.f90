@@ -206,8 +206,8 @@ contains
         us = sum(taken%steps(:taken%n)%normal_us + taken%steps(:taken%n)%tangential_us)
     end function time_of
 
-    !> By how much more two solutions differ than the error that is told of the first: an error of
-    !> one of them that nobody told.
+    !> By how much more two solutions differ than the error estimate of the first: an error of
+    !> one of them that was not estimated.
     pure real(wp) function contradiction(target, first, error, second)
         integer, intent(in) :: target
         type(normal_result_t), intent(in) :: first, second

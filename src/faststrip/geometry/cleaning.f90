@@ -1,4 +1,4 @@
-!> Changes to the points of a profile, each for who asks for it; every one says what it did.
+!> Changes to the points of a profile, each on request only; every one reports what it did.
 module faststrip_geometry_cleaning
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi

@@ -1,4 +1,4 @@
-!> Smoothing of a profile's points along its arc, for who asks for it: by wavelength or by noise.
+!> Smoothing of a profile's points along its arc, on request only: by wavelength or by noise.
 !>
 !> Both coordinates are smoothed as functions of the arc length s, so that an upright side is
 !> smoothed like a tread: with spacings w as weights

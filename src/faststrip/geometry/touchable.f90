@@ -6,7 +6,7 @@
 !> is followed to both sides as long as it goes on outwards. Points that fold back, a zig-zag, are
 !> passed over where the curve goes on beyond them right away; where it does not, at an overhang or
 !> an upright side, the rest of that side is clipped. A point that lies where the one before does is
-!> that one written twice, and no fold. Nothing is moved, and what was left out is told.
+!> that one written twice, and no fold. Nothing is moved, and what was left out is reported.
 module faststrip_geometry_touchable
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: add_words, number_text, count_text

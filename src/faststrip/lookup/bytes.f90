@@ -1,6 +1,6 @@
 !> Lookup tables as bytes, what files hold: docs/formats.md has the layout.
 !>
-!> Bytes that are damaged, cut, or of another version are told; what they say of sizes is held
+!> Bytes that are damaged, cut, or of another version are refused; what they say of sizes is held
 !> against their number before anything is allocated.
 module faststrip_lookup_bytes
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

@@ -48,7 +48,7 @@ module faststrip_wheelset_approach
         real(wp) :: high = huge(1.0_wp)    !! too large, mm
         real(wp) :: before = 0.0_wp        !! the last approach, mm
         real(wp) :: root_before = 0.0_wp   !! its force to 2/3
-        real(wp) :: slope = 0.0_wp         !! last one that was told, of the force to 2/3
+        real(wp) :: slope = 0.0_wp         !! the last one, of the force to 2/3
         real(wp) :: tolerance = 0.0_wp     !! misfit at which it ends, 0: as near as it comes
         real(wp) :: bracket = 0.0_wp       !! the same of the bracket, of its upper end
         integer :: steps = 0               !! so far

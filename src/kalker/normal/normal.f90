@@ -95,7 +95,7 @@ module faststrip_kalker_normal
     end type spacing_t
 
     abstract interface
-        !> Told of each grid before it is solved, for those who have to wait.
+        !> Called for each grid before it is solved, for those who have to wait.
         subroutine norm_watch(grid)
             import :: contact_grid_t
             type(contact_grid_t), intent(in) :: grid !! positioned
@@ -159,7 +159,7 @@ contains
                                                     !! `iterations` on all of them
         type(status_t), intent(out) :: status       !! how it ended
         type(contact_strips_t), intent(in), optional :: strips !! a strip solution to start from
-        procedure(norm_watch), optional :: watch    !! is told of each grid
+        procedure(norm_watch), optional :: watch    !! is called for each grid
 
         call check_input(workspace, compliance, options, status)
         if (.not. is_error(status)) call check_load(load, status)
@@ -178,7 +178,7 @@ contains
         type(normal_result_t), intent(out) :: result !! load, penetration, area, ...
         type(status_t), intent(out) :: status       !! how it ended
         type(contact_strips_t), intent(in), optional :: strips !! a strip solution to start from
-        procedure(norm_watch), optional :: watch    !! is told of each grid
+        procedure(norm_watch), optional :: watch    !! is called for each grid
 
         if (demand%by_load) then
             call norm_solve(workspace, compliance, demand%load, options, result, status, &
@@ -201,7 +201,7 @@ contains
         type(normal_result_t), intent(out) :: result !! load, area, ...
         type(status_t), intent(out) :: status       !! how it ended
         type(contact_strips_t), intent(in), optional :: strips !! a strip solution to start from
-        procedure(norm_watch), optional :: watch    !! is told of each grid
+        procedure(norm_watch), optional :: watch    !! is called for each grid
 
         call check_input(workspace, compliance, options, status)
         if (is_error(status)) return
@@ -225,7 +225,7 @@ contains
     !> Solve the normal problem of a gap that is given on a grid of rectangles, of any form.
     !>
     !> The grid has to hold the contact: if it reaches the outermost elements, that is an error. A
-    !> body that ends is told by heights that are too large for contact. Sides of the options, an
+    !> body that ends has heights that are too large for contact. Sides of the options, an
     !> error target and an estimate do not count here.
     !>
     !> Errors: as `norm_solve_penetration`; `st_bad_argument`: sides, a grid without elements;

@@ -1,4 +1,4 @@
-!> Smoothing of a measured gap, for who asks for it: nothing in the library does so by itself.
+!> Smoothing of a measured gap, on request only: nothing in the library does so by itself.
 !>
 !> The gap is a parabola fitted to all points and what is left of them smoothed by a cubic spline
 !> on even knots, with a penalty on the third differences of its coefficients (Eilers and Marx,

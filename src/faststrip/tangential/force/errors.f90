@@ -2,7 +2,7 @@
 !> contacts.
 !>
 !> A network that was fitted to the errors of forces on contacts that the correction of FASTSTRIP
-!> did not know (`tools/generate/fit_forces.py`); it is told what the correction is told, how large
+!> did not know (`tools/generate/fit_forces.py`); its inputs are those of the correction, how large
 !> that is, and what is estimated of the normal solution. Where a patch rolls less or more than what
 !> was fitted, its errors go with the creepages or stay what they are at the end; of shapes beyond,
 !> they grow as the correction fades.

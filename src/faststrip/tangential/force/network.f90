@@ -1,4 +1,4 @@
-!> What the networks of the force correction and of its errors have in common: what they are told
+!> What the networks of the force correction and of its errors have in common: their inputs
 !> of a patch that rolls, and how a network of two layers is evaluated.
 module faststrip_tangential_force_network
     use faststrip_base_kinds, only: wp
@@ -44,7 +44,7 @@ module faststrip_tangential_force_network
 
 contains
 
-    !> What networks are told: first of creepages, ellipse and elements, then of the shape. Nothing
+    !> Inputs of networks: first of creepages, ellipse and elements, then of the shape. Nothing
     !> of it changes when the creepages change sign or left and right are exchanged.
     pure subroutine network_inputs(state, shape, x, v)
         type(rolling_state_t), intent(in) :: state !! that moves
@@ -146,7 +146,7 @@ contains
         real(wp), intent(in) :: first(units, inputs), first_bias(units)    !! of the first layer
         real(wp), intent(in) :: second(units, units), second_bias(units)   !! of the second
         real(wp), intent(in) :: third(outputs, units), third_bias(outputs) !! of the last
-        real(wp), intent(in) :: x(inputs)                                  !! what it is told
+        real(wp), intent(in) :: x(inputs)                                  !! its inputs
         real(wp), intent(out) :: c(outputs)                                !! what it says
 
         ! Not of `units`: such arrays would be allocated.

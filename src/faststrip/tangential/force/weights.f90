@@ -17,10 +17,10 @@ module faststrip_tangential_force_weights
     public :: most, side_scale, even_scale, odd_scale, half_shape, largest_log_ratio, &
               largest_shape, least_poisson, largest_poisson
 
-    !> What both networks are told.
+    !> Inputs of both networks.
     integer, parameter :: n_ellipse_inputs = 22
 
-    !> What the second one is told besides.
+    !> Further inputs of the second one.
     integer, parameter :: n_shape_inputs = 19
 
     !> Units of each of their two layers.
@@ -32,7 +32,7 @@ module faststrip_tangential_force_weights
     !> Factors of the odd numbers.
     integer, parameter :: n_side_factors = 12
 
-    !> What the network of the errors is told.
+    !> Inputs of the network of the errors.
     integer, parameter :: n_error_inputs = 51
 
     !> Units of each of its layers.
