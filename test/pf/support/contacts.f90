@@ -1,14 +1,23 @@
-!> Gaps, ellipses and strips that tests of several rooms look at.
+!> Gaps, ellipses and strips that tests of several rooms look at, and how they are solved.
 module contacts
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t
+    use faststrip_base_material, only: material_t, normal_compliance
+    use faststrip_base_status, only: status_t, is_error
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_solve, only: solve_contact_forces
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_strips
+    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
+                                      reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_normal_types, only: normal_result_t
+    use faststrip_tangential_types, only: tangential_result_t
     implicit none
     private
 
     public :: even_gap, parabola, ellipse, elliptic_strips, pressed_ellipse, fixed_seed
+    public :: prepare_strips, solve_strips, find_forces
 
 contains
 
@@ -75,6 +84,47 @@ contains
         call reserve_strips(strips, n, status)
         call hertz_strips(ellipse(a_over_b, y), n, strips, status)
     end function elliptic_strips
+
+    !> A gap in a workspace, and room for strips of its contact.
+    subroutine prepare_strips(gap, most, workspace, strips, status)
+        type(gap_t), intent(in) :: gap
+        integer, intent(in) :: most               !! strips
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(contact_strips_t), intent(inout) :: strips
+        type(status_t), intent(out) :: status     !! errors of the gap
+
+        call reserve_strips(strips, most, status)
+        call reserve_strip_workspace(workspace, most, size(gap%y), status)
+        call set_strip_gap(workspace, gap, status)
+    end subroutine prepare_strips
+
+    !> A contact of steel by strips, in a workspace of its own.
+    subroutine solve_strips(gap, load, n_strips, strips, result, status)
+        type(gap_t), intent(in) :: gap
+        real(wp), intent(in) :: load              !! N
+        integer, intent(in) :: n_strips           !! in a patch
+        type(contact_strips_t), intent(inout) :: strips
+        type(normal_result_t), intent(out) :: result
+        type(status_t), intent(out) :: status     !! errors of the gap and of the solution
+        type(strip_workspace_t) :: workspace
+
+        call prepare_strips(gap, 400, workspace, strips, status)
+        if (is_error(status)) return
+        call strip_solve(workspace, normal_compliance(material_t()), load, &
+                         strip_options_t(strips_per_patch=n_strips), strips, result, status)
+    end subroutine solve_strips
+
+    !> The forces alone, on the pressures that are there.
+    subroutine find_forces(workspace, case, forces, status)
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(tangential_result_t), intent(out) :: forces
+        type(status_t), intent(out) :: status     !! of `solve_contact_forces`
+        type(contact_result_t) :: result
+
+        call solve_contact_forces(workspace, case, result, status)
+        forces = result%tangential
+    end subroutine find_forces
 
     !> Let `random_number` give the same numbers in each run.
     subroutine fixed_seed(first)
