@@ -336,47 +336,6 @@ class GapFile(ProgramTest):
         self.refused(1, "contact", "case.nml", "--tangential", "tang", "--element-dx", "1e-3",
                      "--element-dy", "1e-3", says=["elements", "case.nml"])
 
-    def test_ellipses_of_the_strips(self):
-        self.write("lopsided.csv", gap_text(lambda y: parabola(y) * (1.0 + 0.002 * y * y)))
-        strip = self.contact(gap_file="lopsided.csv")
-        axes = {}
-        for normal in ("equal_area", "equal_moments"):
-            row = self.contact("--normal", normal, "--strips", "s.csv", "--fields", "f.csv",
-                               gap_file="lopsided.csv", motion="cksi = 0.0008")
-            self.assertEqual((row["normal"], row["penetration_mm"]),
-                             (normal, strip["penetration_mm"]))
-            self.check_strips(row, self.read("s.csv"))
-            self.check_fields(row, self.read("f.csv"))
-            self.assert_close(float(row["area_mm2"]), float(strip["area_mm2"]), 0.01)
-            self.assert_close(float(row["pmax_MPa"]), 1.5e5 / float(row["area_mm2"]), 1e-6)
-            axes[normal] = float(row["xmax_mm"])
-        self.assertNotEqual(axes["equal_area"], axes["equal_moments"])
-
-    def test_kalkers_method(self):
-        hertz = self.contact("--normal", "hertz", motion="cksi = 0.001")
-        norm = self.contact("--normal", "norm", motion="cksi = 0.001")
-        self.assertEqual((norm["status"], norm["normal"]), ("ok", "norm"))
-        for name, relative in (("penetration_mm", 5e-4), ("pmax_MPa", 2e-3), ("area_mm2", 2e-2),
-                               ("Fx_N", 2e-2)):
-            self.assert_close(float(norm[name]), float(hertz[name]), relative, what=name)
-        self.assertLess(float(norm["residual_inside"]), 1e-8)
-        self.assertLess(float(norm["overlap_outside"]), 1e-8)
-        error = abs(float(norm["penetration_mm"]) / float(hertz["penetration_mm"]) - 1.0)
-        self.assertLess(error, float(norm["est_err_penetration"]))
-        # From strips, without the coarser grid that gives the errors.
-        warm = self.contact("--normal", "norm", "--norm-start", "strips", motion="cksi = 0.001")
-        self.same(warm, norm, 1e-6)
-        self.assertEqual(warm["est_err_pmax"], "")
-        # Sides from the case file, from the options, from the error that is asked.
-        coarse = self.contact("--normal", "norm", "--element-dx", "0.5", "--element-dy", "0.25",
-                              motion="cksi = 0.001")
-        group = "&numerics\n normal = 'norm', element_dx_mm = 0.5, element_dy_mm = 0.25\n/\n"
-        self.same(self.contact(motion="cksi = 0.001", extra=group), coarse)
-        self.assertNotEqual(coarse["pmax_MPa"], norm["pmax_MPa"])
-        fine = self.contact("--normal", "norm", "--error-target", "1e-3")
-        self.assertLess(float(fine["est_err_pmax"]), 1e-3)
-        self.assert_close(float(fine["pmax_MPa"]), float(hertz["pmax_MPa"]), 1e-3)
-
     def test_rows_of_kalkers_method_as_strips(self):
         for tangential in ("faststrip", "fastsim"):
             row = self.contact("--normal", "norm", "--tangential", tangential, "--strips", "s.csv",
