@@ -5,6 +5,7 @@ module faststrip_base_limits
     private
 
     public :: most_steps, most_halvings, smallest_size, largest_size, nothing, beyond_all
+    public :: rounding
 
     !> Most steps of a search that goes on until it is there.
     !> Tuned [steps]. Origin: safeguard: Newton's and secant steps take three to ten, a bracket that
@@ -22,4 +23,7 @@ module faststrip_base_limits
     !> Numbers above stand for infinite ones, or are refused.
     !> Tuned [1]. Origin: safeguard: squares cannot overflow.
     real(wp), parameter :: beyond_all = 1.0e100_wp
+    !> Numbers that people gave as decimals and that differ by less are the same.
+    !> Tuned [mm, 1]. Origin: safeguard: above rounding, below what anybody writes.
+    real(wp), parameter :: rounding = 1.0e-9_wp
 end module faststrip_base_limits

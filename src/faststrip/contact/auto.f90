@@ -23,7 +23,7 @@ module faststrip_contact_auto
                                                  errors_of_fitted
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_clock, only: now, since, lap_t, start_lap, add_lap
-    use faststrip_contact_grids, only: plan_of_finer, follow_on
+    use faststrip_contact_grids, only: plan_of_finer, follow_on, most_grids
     use faststrip_contact_method, only: workspace_t, contact_result_t, normal_method_of, &
                                         tangential_method_t, tangential_method_of
     use faststrip_contact_methods, only: contact_methods_t, normal_strip, normal_hertz, &
@@ -33,14 +33,14 @@ module faststrip_contact_auto
     use faststrip_contact_target, only: target_error, name_target
     use faststrip_contact_wanted, only: wanted_t, check_wanted, needs_forces, margin, &
                                         others_across, others_time, auto_step_t, auto_steps_t, &
-                                        clear_steps, unknown_error
+                                        clear_steps, unknown_error, most_steps
     implicit none
     private
 
     public :: solve_auto
 
-    ! Tuned [steps]: Most steps by the core. Origin: safeguard: the estimate leads there in three.
-    integer, parameter :: most_own_steps = 8
+    ! Most steps by the core: grids may follow.
+    integer, parameter :: most_own_steps = most_steps - most_grids
     ! Tuned [strips]: Strips that find the patches. Origin: time: fewer are no cheaper.
     integer, parameter :: first_strips = 5
     ! Strips of a Hertz ellipse, which cost next to nothing; least points along a strip, which are

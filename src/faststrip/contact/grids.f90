@@ -16,19 +16,21 @@ module faststrip_contact_grids
     use faststrip_contact_target, only: target_error, name_target
     use faststrip_contact_wanted, only: wanted_t, others_t, others_across, others_time, margin, &
                                         needs_forces, auto_step_t, auto_steps_t, unknown_error, &
-                                        most_steps, target_area, target_pmax
+                                        target_area, target_pmax
     implicit none
     private
 
-    public :: plan_of_finer, follow_on
+    public :: plan_of_finer, follow_on, least_across, most_grids
 
-    ! Tuned [grids]: that are tried for one contact. Origin: chosen for the time.
+    !> Grids that are tried for one contact.
+    !> Tuned [grids]. Origin: chosen for the time.
     integer, parameter :: most_grids = 3
     ! Tuned [strips]: across where grids follow, unless the area is wanted: their own estimate of
     ! the area falls slowly. Origin: measured, 134 contacts of the families of `force-data`.
     integer, parameter :: most_strips = 41
-    ! Tuned [elements]: across the patch at least. Origin: as NORM's coarser grid.
-    real(wp), parameter :: least_across = 8.0_wp
+    !> Elements across a patch at least.
+    !> Tuned [elements]. Origin: as NORM's coarser grid.
+    integer, parameter :: least_across = 8
     ! Tuned [1]: how many more the next try has at least and at most. Origin: chosen for the time.
     real(wp), parameter :: least_growth = 1.4_wp, largest_growth = 3.0_wp
     ! Tuned [elements]: across where the largest grid is not expected to do: their estimate tells.
@@ -66,7 +68,7 @@ contains
         if (.not. associated(method)) return
         others = method%expected(wanted%target)
         if (.not. others%one_us > 0.0_wp) return
-        if (wanted%budget_us > 0.0_wp .and. others_time(others, least_across) &
+        if (wanted%budget_us > 0.0_wp .and. others_time(others, real(least_across, wp)) &
             > share_of_budget*wanted%budget_us) return
         is_there = .true.
         wanted%others = others
@@ -94,7 +96,7 @@ contains
             width = max(width, strips%y_right(last) - strips%y_left(first))
         end do
         grid%most_across = sqrt(max_elements/surplus*width/(normal%y_max - normal%y_min))
-        across = least_across
+        across = real(least_across, wp)
         associate (coarse => taken%steps(max(taken%first, 1)))
             if (wanted%tolerance > 0.0_wp .and. coarse%estimate < unknown_error) &
                 across = max(across, others_across(wanted, &
@@ -166,7 +168,7 @@ contains
         strips = workspace%strips
         grid = first_grid(wanted, workspace%steps, case%methods%max_elements, best%normal, strips, &
                           time_of(workspace%steps))
-        do while (grid%across > 0.0_wp .and. workspace%steps%n < most_steps)
+        do while (grid%across > 0.0_wp)
             trial = contact_result_t()
             workspace%strips = strips
             call solve_on_grid(workspace, case, wanted, steps_case, grid, trial, step, tried)

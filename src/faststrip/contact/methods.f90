@@ -135,9 +135,8 @@ module faststrip_contact_methods
                  help='TANG, Kalker''s variational method: the reference'), &
         method_t(0, 'none', takes_falling=.true., help='no forces')]
 
-    !> Most strips per patch.
-    !> Tuned [strips]. Origin: capacity.
-    integer, parameter :: most_strips = 1000
+    !> Most strips per patch: as many as points along one.
+    integer, parameter :: most_strips = most_points
     !> Most rows, and most points along a row, of FASTSIM.
     !> Tuned [rows]. Origin: capacity.
     integer, parameter :: most_rows = 10000

@@ -15,9 +15,8 @@ module faststrip_contact_plausible
     public :: doubts_t, add_doubt, find_doubts, doubt_material, doubt_pressure
     public :: gap_size_t, gap_size, case_names_t
 
-    !> Most words about one contact or one state of a wheelset.
-    !> Tuned [lines]. Origin: capacity: more than there are numbers to speak of.
-    integer, parameter :: most_doubts = 24
+    !> Most words about one contact or one state of a wheelset: one of each quantity.
+    integer, parameter :: most_doubts = size(quantities)
 
     !> What there is to say.
     type :: doubts_t

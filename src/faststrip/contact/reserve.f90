@@ -22,8 +22,6 @@ module faststrip_contact_reserve
     !> Most points of a gap.
     !> Tuned [points]. Origin: capacity.
     integer, parameter :: most_gap_points = 1000000
-    ! Tuned [numbers]: memory of an element, tried before it is taken. Origin: counted.
-    integer(int64), parameter :: per_element = 9
 
 contains
 
@@ -90,7 +88,7 @@ contains
         elements = max(int(strip_capacity(methods), int64)*points, &
                        int(methods%fastsim_nx, int64)*methods%fastsim_ny*max_patches)
         if (elements < huge(points)) then
-            call try_memory(per_element*elements, 'field', status)
+            call try_memory(per_point*elements, 'field', status)
         else
             call set_status(status, st_workspace_too_small, 'not enough memory for a field')
         end if

@@ -19,8 +19,8 @@ module faststrip_contact_method_capacity
 
     ! Tuned [strips]: capacity for those of further patches. Origin: capacity.
     integer, parameter :: spare_strips = 60
-    !> Tuned [numbers]: memory of a workspace, tried before it is taken: of a point, a strip.
-    !> Origin: counted from the components of the workspaces, with a margin.
+    !> Tuned [numbers]: memory of a workspace, tried before it is taken: of a point or an element, a
+    !> strip. Origin: counted from the components of the workspaces, with a margin.
     integer(int64), parameter :: per_point = 20, per_strip = 110
     ! Tuned [numbers]: the same of a pair of strips and of the lattice. Origin: counted.
     integer(int64), parameter :: per_pair = 8, at_least = 400000

@@ -19,9 +19,9 @@ module faststrip_contact_method_march_errors
 
     public :: left_out_t, estimate_march, name_falling_friction
 
-    ! Tuned [1]: Force by the coupling of dissimilar materials, over K N; at most over mu N. Origin:
-    ! a line contact in free rolling (Bentall and Johnson 1967), linear.
-    real(wp), parameter :: force_of_coupling = 3.0_wp, most_left_out = 2.0_wp
+    ! Tuned [1]: Force by the coupling of dissimilar materials, over K N. Origin: a line contact in
+    ! free rolling (Bentall and Johnson 1967), linear.
+    real(wp), parameter :: force_of_coupling = 3.0_wp
 
     !> A tangential method of the core: no error is known, unless it says so; what it leaves out is
     !> named.
@@ -100,12 +100,12 @@ contains
 
     !> What methods of the core leave out of forces over mu N where materials are dissimilar:
     !> pressures cause slip of a creepage of about 1.25 K p0/G, which makes three times K N of
-    !> force.
+    !> force; no two forces differ by more than twice mu N.
     pure real(wp) function left_out(case) result(error)
         type(contact_case_t), intent(in) :: case
 
         error = min(force_of_coupling*abs(coupling_constant(case%material)), &
-                    most_left_out*case%mu)/max(case%mu, tiny(error))
+                    2.0_wp*case%mu)/max(case%mu, tiny(error))
     end function left_out
 
     !> Name that no error of forces is estimated where friction falls with slip: what the estimates

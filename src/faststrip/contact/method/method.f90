@@ -19,7 +19,7 @@ module faststrip_contact_method
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t
     use faststrip_tangential_wear_law, only: wear_t
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: contact_methods_t, method_t
+    use faststrip_contact_methods, only: contact_methods_t, method_t, normal_table, tangential_table
     use faststrip_contact_wanted, only: auto_steps_t, others_t
     implicit none
     private
@@ -28,9 +28,8 @@ module faststrip_contact_method
     public :: normal_method_t, tangential_method_t
     public :: enter_normal_method, enter_tangential_method, normal_method_of, tangential_method_of
 
-    !> Most methods of a kind in a workspace.
-    !> Tuned [methods]. Origin: capacity: twice those of the list.
-    integer, parameter :: most_methods = 24
+    !> Most methods of a kind in a workspace: twice those of the list.
+    integer, parameter :: most_methods = 2*max(size(normal_table), size(tangential_table))
 
     !> Time of a solution, without error estimates but those that auto steers by.
     type :: times_t
