@@ -5,6 +5,7 @@
 !> and while it is longer than the least cell.
 module faststrip_tabulate_axis
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: rounding
     use faststrip_base_status, only: status_t, is_error, clear_status
     use faststrip_lookup_axis, only: lookup_axis_t, make_axis, make_point
     use faststrip_tabulate_family, only: family_t, sampled_axis_t, note_failure
@@ -12,9 +13,6 @@ module faststrip_tabulate_axis
     private
 
     public :: start_axis, refine_axis, nodes_of
-
-    ! Tuned [1]: cells that are as long as twice the least, but for rounding. Origin: rounding.
-    real(wp), parameter :: twice = 1.999_wp
 
 contains
 
@@ -54,7 +52,7 @@ contains
             from = [1]
             do i = 2, size(axis%x), 2
                 if (family%cell_error(axis, i) > limit .and. &
-                    axis%x(i + 1) - axis%x(i - 1) > twice*axis%least) then
+                    axis%x(i + 1) - axis%x(i - 1) > 2.0_wp*axis%least*(1.0_wp - rounding)) then
                     from = [from, 0, i, 0, i + 1]
                 else
                     from = [from, i, i + 1]

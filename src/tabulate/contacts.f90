@@ -17,7 +17,7 @@ module faststrip_tabulate_contacts
                                       at_pmax, at_length, at_creep, at_spin
     use faststrip_lookup_wheel, only: n_wheel_place
     use faststrip_tabulate_forces, only: choice_t, solve_forces
-    use faststrip_tabulate_states, only: shape_scale
+    use faststrip_tabulate_states, only: shape_scale, most_slender
     use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, wheelset_result_t, &
                                         wheelset_demand_t, wheel_contact_t, most_contacts, &
@@ -31,9 +31,6 @@ module faststrip_tabulate_contacts
     ! Tuned [1]: vertical force that is found, of the load, and the bracket of the approach in which
     ! a force jumps over it. Origin: chosen: a thousandth of what tables interpolate.
     real(wp), parameter :: near_enough = 1.0e-6_wp, least_bracket = 1.0e-5_wp
-    ! Tuned [1]: most slender ellipse whose coefficients scale creepages. Origin: safeguard: within
-    ! the tables of the coefficients.
-    real(wp), parameter :: most_slender = 20.0_wp
 
     !> The contacts of a place.
     type :: found_contacts_t

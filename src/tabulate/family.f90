@@ -27,7 +27,8 @@ module faststrip_tabulate_family
         integer :: values = 0               !! of a sample
         integer :: samples = 0              !! of a place, of other coordinates
         integer :: jobs = 1                 !! of a place: as many samples are solved together
-        integer :: most_nodes = 0           !! at which refining ends
+        ! Tuned [nodes]. Origin: capacity.
+        integer :: most_nodes = 400         !! at which refining ends
         real(wp) :: least = 0.0_wp          !! cells that are not halved, in the unit of the axis
         real(wp), allocatable :: cells(:)   !! nodes of another axis, from whose cells samples are
         real(wp), allocatable :: x(:)       !! 2 n - 1 places
@@ -59,8 +60,6 @@ module faststrip_tabulate_family
             !! parts of the error asked for that each axis may make to begin with: of creepages, of
             !! places
         real(wp) :: least_share = 0.0_wp !! the least part of an axis of creepages
-        integer :: most_rounds = 1    !! tables made
-        real(wp) :: most_nodes = 0.0_wp !! of a table
         character(len=:), allocatable :: words !! how the table is made
         procedure(tell_progress), pointer, nopass :: progress => null() !! gets how far work is
         procedure(tell), pointer, nopass :: note => null()              !! gets what is of note

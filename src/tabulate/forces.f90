@@ -4,17 +4,19 @@ module faststrip_tabulate_forces
     use faststrip_base_status, only: status_t, is_error, set_status, number_text, &
                                      st_no_convergence, st_bad_argument
     use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_grids, only: least_across
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_methods, only: contact_methods_t, tangential_faststrip, &
                                          tangential_fastsim, tangential_tang
     use faststrip_contact_solve, only: solve_contact_forces
+    use faststrip_contact_wanted, only: usual_tolerance
     use faststrip_lookup_faces, only: n_forces
     use faststrip_normal_strips, only: usual_strips
     implicit none
     private
 
     public :: choice_t, solve_forces
-    public :: force_methods, by_fastsim
+    public :: force_methods, by_fastsim, most_across
 
     !> Methods, by their numbers.
     !> Given: places in the list of names.
@@ -22,8 +24,9 @@ module faststrip_tabulate_forces
     character(len=9), parameter :: force_methods(4) = [character(len=9) :: &
         'faststrip', 'fastsim', 'tang', 'auto']
 
-    ! Tuned [elements]: the least and the most of TANG along each axis, for auto. Origin: cost.
-    integer, parameter :: least_across = 8, most_across = 160
+    !> Most elements of TANG along each axis.
+    !> Tuned [elements]. Origin: cost: a contact of so many takes seconds.
+    integer, parameter :: most_across = 400
 
     !> What a table's forces are solved by.
     type :: choice_t
@@ -32,8 +35,7 @@ module faststrip_tabulate_forces
         integer :: points = usual_strips !! along a strip, or elements along x
         ! Tuned [elements]. Origin: chosen: errors of some tenths of a percent.
         integer :: across = 36   !! elements of TANG along each axis, the least of auto
-        ! Tuned [1]. Origin: chosen; the command line has its own.
-        real(wp) :: tolerance = 0.005_wp !! of auto, over mu N and mu N c
+        real(wp) :: tolerance = usual_tolerance !! of auto, over mu N and mu N c
         ! Given: steel.
         real(wp) :: nu = 0.28_wp !! Poisson's ratio of both bodies
     end type choice_t

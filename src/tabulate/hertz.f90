@@ -28,6 +28,7 @@ module faststrip_tabulate_hertz
     private
 
     public :: hertz_family_t, make_hertz_family, release_hertz_family
+    public :: first_share, least_creepage, most_creepage
 
     ! Axes, by their numbers.
     ! Given: their order in a table.
@@ -39,18 +40,12 @@ module faststrip_tabulate_hertz
     real(wp), parameter :: judged_at = 95.0_wp
     ! Tuned [nodes]: of an axis to begin with. Origin: chosen.
     integer, parameter :: first_nodes = 5
-    ! Tuned [1]: Part of the error asked for that each axis may make to begin with. Origin: measured
-    ! on FASTSTRIP's tables.
+    !> Part of the error asked for that each axis of creepages may make to begin with.
+    !> Tuned [1]. Origin: measured on FASTSTRIP's tables, and on S1002 on 60E1.
     real(wp), parameter :: first_share = 0.6_wp
-    ! Tuned [rounds]: tables made. Origin: safeguard.
-    integer, parameter :: most_rounds = 8
-    ! Tuned [nodes]: the most of one axis. Origin: capacity.
-    integer, parameter :: most_of_axis = 250
-    ! Tuned [nodes]: the most of a table. Origin: capacity.
-    real(wp), parameter :: most_nodes = 6.0e7_wp
-    ! Creepage of a node at which nothing slides, and all does: forces there are the limits to less
-    ! than the numbers of a table tell.
-    ! Tuned [1]. Origin: chosen.
+    !> Creepage of a node at which nothing slides, and all does: forces there are the limits to less
+    !> than the numbers of a table tell.
+    !> Tuned [1]. Origin: chosen.
     real(wp), parameter :: least_creepage = 1.0e-5_wp, most_creepage = 1.0e4_wp
     ! A contact to solve for a node. None of it matters.
     ! Given: units of a table.
@@ -111,8 +106,6 @@ contains
         family%n_sums = n_forces
         family%n_errors = n_forces
         family%shares = first_share
-        family%most_rounds = most_rounds
-        family%most_nodes = most_nodes
         allocate (family%solver(threads))
         do i = 1, threads
             allocate (family%solver(i)%at)
@@ -155,7 +148,6 @@ contains
         axis%values = n_forces
         axis%samples = n_samples
         axis%jobs = n_samples
-        axis%most_nodes = most_of_axis
         axis%x = [(real(i - 1, wp)/(places - 1), i=1, places)]
         if (axis%kind == axis_shape) axis%x = self%ends(1) + (self%ends(2) - self%ends(1))*axis%x
     end subroutine start_hertz

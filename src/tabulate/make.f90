@@ -23,6 +23,10 @@ module faststrip_tabulate_make
 
     ! Tuned [1]: The same axis is refined further by at least this. Origin: chosen.
     real(wp), parameter :: least_step = 0.85_wp, most_step = 0.5_wp
+    ! Tuned [rounds]: tables made. Origin: safeguard.
+    integer, parameter :: most_rounds = 8
+    ! Tuned [nodes]: the most of a table. Origin: capacity: 1.2 GB.
+    real(wp), parameter :: most_nodes = 1.0e8_wp
     ! Tuned [1]: how often work is kept. Origin: chosen: files are written in less time than solved.
     integer, parameter :: kept_times = 20
 
@@ -35,9 +39,9 @@ contains
         type(lookup_t), intent(out) :: lookup      !! to be filled
         type(status_t), intent(out) :: status      !! `st_no_convergence`: too many nodes; of places
 
-        if (family%nodes(axes) > family%most_nodes) then
+        if (family%nodes(axes) > most_nodes) then
             call set_status(status, st_no_convergence, 'a table as good as asked for has more ' &
-                            // 'than ' // trim(number_text(family%most_nodes)) // ' nodes')
+                            // 'than ' // trim(number_text(most_nodes)) // ' nodes')
             return
         end if
         call family%begin(axes, lookup, status)
@@ -118,7 +122,7 @@ contains
         limits = error*family%shares
         before = 0
         best = huge(1.0_wp)
-        do round = 1, family%most_rounds
+        do round = 1, most_rounds
             do k = 1, family%n_axes
                 if (round == 1) call start_axis(family, k, axes, status)
                 if (is_error(status)) return

@@ -8,15 +8,15 @@ module faststrip_tabulate_states
     implicit none
     private
 
-    public :: shape_scale, fresh_state, fresh_coordinates, drawn_creepages
+    public :: shape_scale, fresh_state, fresh_coordinates, drawn_creepages, most_slender
 
     !> Coordinates of a point that make a fresh state.
     !> Given: what it draws.
     integer, parameter :: fresh_coordinates = 8
 
-    ! Tuned [1]: decimal logarithm of the largest size c of fresh ellipses, mm; their friction,
-    ! least and range. Origin: chosen.
-    real(wp), parameter :: most_size = 1.5_wp, least_mu = 0.05_wp, range_mu = 0.65_wp
+    !> Most slender ellipse of a table, a/b or b/a.
+    !> Tuned [1]. Origin: capacity: far from any contact's.
+    real(wp), parameter :: most_slender = 1.0e3_wp
 
 contains
 
@@ -57,8 +57,8 @@ contains
         x = x*exp(log_10*(4.0_wp*point(1) - 2.0_wp))
     end function drawn_creepages
 
-    !> A fresh contact: a/b, size, load, friction evenly in their logarithms; creepages that were
-    !> drawn.
+    !> A fresh contact: a/b, size, load evenly in their logarithms, friction evenly; creepages that
+    !> were drawn. Of these size, load and friction scale all there is, and make no error.
     function fresh_state(point, first, last, nu, status) result(state)
         real(wp), intent(in) :: point(fresh_coordinates) !! from 0 to 1
         real(wp), intent(in) :: first, last   !! least and largest ln(a/b)
@@ -70,11 +70,11 @@ contains
 
         log_ratio = first + point(1)*(last - first)
         x = drawn_creepages(point(2:5))
-        c = exp(log_10*most_size*point(6))
+        c = exp(log_10*point(6))
         state(1) = c*exp(0.5_wp*log_ratio)
         state(2) = c*exp(-0.5_wp*log_ratio)
         state(3) = exp(log_10*(3.0_wp + 3.0_wp*point(7)))
-        state(4) = least_mu + range_mu*point(8)
+        state(4) = 1.0_wp - point(8)
         state(5) = 82000.0_wp ! Given: steel, MPa
         state(6:8) = x*state(4)*state(3) &
                      /(state(5)*c**2*shape_scale(log_ratio, nu, status)*[1.0_wp, 1.0_wp, c])

@@ -26,7 +26,8 @@ module faststrip_tabulate_wheel
     use faststrip_tabulate_family, only: family_t, sampled_axis_t, judged_t, note_failure, &
                                          keep_quiet, states_changing
     use faststrip_tabulate_forces, only: choice_t
-    use faststrip_tabulate_hertz, only: hertz_family_t, make_hertz_family, release_hertz_family
+    use faststrip_tabulate_hertz, only: hertz_family_t, make_hertz_family, release_hertz_family, &
+                                        first_share, least_creepage, most_creepage
     use faststrip_tabulate_parts, only: forget_values
     use faststrip_tabulate_points, only: scattered_point
     use faststrip_tabulate_slots, only: find_slots, neighbour_of, n_directions
@@ -55,25 +56,16 @@ module faststrip_tabulate_wheel
     ! Tuned [1]: a/b, logarithms, of the ellipses that the axes of creepages are refined on. Origin:
     ! usual contacts.
     real(wp), parameter :: usual_shapes(2) = [-1.0_wp, 1.5_wp]
-    ! Tuned [1]: Parts of the error asked for that each axis may make to begin with: those of the
-    ! creepages, those of the place. Origin: measured on S1002 on 60E1.
-    real(wp), parameter :: share_of_faces = 0.6_wp, share_of_places = 0.8_wp
+    ! Tuned [1]: Part of the error asked for that each axis of a place may make to begin with.
+    ! Origin: measured on S1002 on 60E1.
+    real(wp), parameter :: share_of_places = 0.8_wp
     ! Tuned [1]: The least part of the creepages. Origin: cost: where contacts jump no nodes help.
     real(wp), parameter :: least_share = 0.25_wp
-    ! Tuned [rounds]: tables made. Origin: safeguard.
-    integer, parameter :: most_rounds = 6
-    ! Tuned [nodes]: the most of an axis of creepages, and of places. Origin: capacity.
-    integer, parameter :: most_of_faces = 60, most_of_places = 400
-    ! Tuned [nodes]: the most of a table. Origin: capacity: 1.2 GB.
-    real(wp), parameter :: most_nodes = 1.0e8_wp
+    ! Tuned [nodes]: the most of an axis of creepages. Origin: capacity.
+    integer, parameter :: most_of_faces = 60
     ! Friction of the contacts that are solved. It does not matter.
     ! Given: a usual one.
     real(wp), parameter :: node_mu = 0.3_wp
-    ! Creepage of a node at which nothing slides, and all does, as for Hertz ellipses.
-    ! Tuned [1]. Origin: chosen.
-    real(wp), parameter :: least_creepage = 1.0e-5_wp, most_creepage = 1.0e4_wp
-    ! Tuned [N/N]: friction of fresh states, least and range. Origin: chosen.
-    real(wp), parameter :: least_mu = 0.1_wp, range_mu = 0.5_wp
     ! Tuned [points]: places drawn for one in a cell where contacts come or go. Origin: cost.
     integer, parameter :: most_draws = 400
 
@@ -144,10 +136,8 @@ contains
         family%n_sums = n_sums
         family%n_errors = n_wheel_errors
         family%n_kinds = 2
-        family%shares = [share_of_faces, share_of_places]
+        family%shares = [first_share, share_of_places]
         family%least_share = least_share
-        family%most_rounds = most_rounds
-        family%most_nodes = most_nodes
         call make_hertz_family(family%choice, threads, usual_shapes, family%ellipses, status)
         if (is_error(status)) return
         allocate (family%solver(threads))
@@ -193,7 +183,6 @@ contains
         axis%values = n_sums + 1
         axis%samples = n_lines*n_creepages
         axis%jobs = n_lines
-        axis%most_nodes = most_of_places
         axis%least = self%limits%least(along)
         if (axis%kind > axis_y) axis%cells = axes(axis_y)%x(1::2)
         associate (first => self%limits%ends(1, along), last => self%limits%ends(2, along))
@@ -567,7 +556,7 @@ contains
             state%state(3) = place_on(lookup%wheel%load, point(3), .false.)
             state%changes = contacts_change(lookup, state%state(:n_wheel_place))
             if (where_they_change .and. .not. state%changes) cycle
-            state%state(4) = least_mu + range_mu*point(4)
+            state%state(4) = 1.0_wp - point(4)
             call take_creepages(lookup, point(5:9), state)
             drawn = drawn + 1
             states(drawn) = state

@@ -7,17 +7,13 @@ module faststrip_command_batch_merge
     use faststrip_command_batch_joined, only: joined_t, check_parts, put_parts
     use faststrip_command_batch_manifest, only: counted, number_text_of
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
-                                                 option_text
+                                                 option_text, any_number
     use faststrip_command_batch_store, only: store_t, take_store, open_store, finish_store, &
                                              manifest_path
     implicit none
     private
 
     public :: run_merge
-
-    !> Most parts on one command line.
-    !> Tuned [files]. Origin: capacity.
-    integer, parameter :: most_files = 100000
 
 contains
 
@@ -40,7 +36,7 @@ contains
             // ' exit code is 1 if a contact failed, as that of one run.' // new_line('a')
         command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF' &
                                     // new_line('a') // 'to FILE.nc', writes=.true.)]
-        call parse_command(command, 1, n_optional=most_files - 1)
+        call parse_command(command, 1, any_number)
         allocate (names(size(command%arguments)))
         do i = 1, size(names)
             names(i)%text = command%arguments(i)%text

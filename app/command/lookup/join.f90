@@ -9,7 +9,7 @@ module faststrip_command_lookup_join
                                                 choice_text
     use faststrip_command_lookup_family, only: families_t, make_family, release_family
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
-                                                 option_text, option_integer
+                                                 option_text, option_integer, any_number
     use faststrip_files_bytes, only: read_bytes
     use faststrip_lookup_bytes, only: open_lookup
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel
@@ -22,9 +22,6 @@ module faststrip_command_lookup_join
     private
 
     public :: run_lookup_join
-
-    ! Tuned [files]: the most. Origin: capacity.
-    integer, parameter :: most_files = 10000
 
 contains
 
@@ -53,7 +50,7 @@ contains
             option_t('--tests', 'N', 'fresh contacts to judge it by (default 10000; of a wheel' &
                      // new_line('a') // '2000 states)'), &
             method_options]
-        call parse_command(command, 1, most_files)
+        call parse_command(command, 1, any_number)
         if (option_text(command, '-o', '-') == '-') &
             call usage_error('-o TABLE.fslt is needed: the table is no text', command%name)
         call take_choice(command, choice)

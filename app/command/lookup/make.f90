@@ -2,6 +2,7 @@
 !> a wheel on a rail, refined until it is as good as asked for, or on the nodes of another table.
 module faststrip_command_lookup_make
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: rounding
     use faststrip_base_status, only: status_t
     use faststrip_command_program_console, only: fail, fail_on_error, usage_error, version_text, &
                                                  note, progress, exit_bad_input
@@ -23,6 +24,7 @@ module faststrip_command_lookup_make
     use faststrip_tabulate_judge, only: judge_table
     use faststrip_tabulate_make, only: begin_table, solve_units, make_refined, first_seed
     use faststrip_tabulate_scatter, only: least_drawn
+    use faststrip_tabulate_states, only: most_slender
     use faststrip_tabulate_wheel, only: wheel_family_t, wheel_limits_t, make_wheel_family, &
                                         release_wheel_family
     use faststrip_wheelset_types, only: wheelset_model_t
@@ -260,14 +262,9 @@ contains
         type(command_t), intent(in) :: command
         real(wp), intent(out) :: ends(2)
 
-        ! Tuned [1]: the most slender ellipses. Origin: capacity.
-        real(wp), parameter :: most_slender = 1.0e3_wp
-        ! Tuned [1]: least range of a/b. Origin: safeguard: above rounding.
-        real(wp), parameter :: least_range = 1.01_wp
-
         call option_pair(command, '--ab', '0.1:10', 'LEAST:MOST', ends)
         if (ends(1) < 1.0_wp/most_slender .or. ends(2) > most_slender .or. &
-            ends(2) < least_range*ends(1)) &
+            ends(2) < (1.0_wp + rounding)*ends(1)) &
             call refuse_value(command, '--ab', 'two rising numbers from 0.001 to 1000')
         ends = log(ends)
     end subroutine take_range

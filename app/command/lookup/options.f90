@@ -5,13 +5,14 @@ module faststrip_command_lookup_options
     use faststrip_base_text, only: integer_text
     use faststrip_command_program_console, only: usage_error
     use faststrip_command_program_options, only: command_t, option_t, option_word, option_integer, &
-                                                 option_number, option_pair, refuse_value, given
+                                                 option_number, option_pair, refuse_value, given, &
+                                                 most_threads
     use faststrip_command_program_system, only: use_one_thread_each
     use faststrip_files_csv, only: real_text
-    use faststrip_contact_methods, only: usual_rows
-    use faststrip_contact_wanted, only: usual_tolerance
+    use faststrip_contact_grids, only: least_across
+    use faststrip_contact_methods, only: usual_rows, most_strips
     use faststrip_normal_strips, only: usual_strips
-    use faststrip_tabulate_forces, only: choice_t, force_methods
+    use faststrip_tabulate_forces, only: choice_t, force_methods, most_across
     implicit none
     private
 
@@ -29,10 +30,6 @@ module faststrip_command_lookup_options
                  // new_line('a') // 'same for any number')]
 
     integer, parameter :: strips_of(4) = [usual_strips, usual_rows, usual_strips, usual_strips]
-    ! Tuned [threads]: the most. Origin: capacity.
-    integer, parameter :: most_threads = 1024
-    ! Tuned [strips, elements]: the most. Origin: capacity.
-    integer, parameter :: most_strips = 1000, least_across = 8, most_across = 400
 
     interface
         ! Processors of the machine, of the C library.
@@ -62,7 +59,7 @@ contains
                                        most=most_strips)
         choice%across = option_integer(command, '--across', choice%across, least=least_across, &
                                        most=most_across)
-        choice%tolerance = option_number(command, '--tolerance', usual_tolerance, above=0)
+        choice%tolerance = option_number(command, '--tolerance', choice%tolerance, above=0)
         if (given(command, '--tolerance') .and. name /= 'auto') &
             call usage_error('--tolerance goes with --method auto', command%name)
     end subroutine take_choice

@@ -16,7 +16,7 @@ module faststrip_command_profile
                                                  version_text, printable, exit_bad_input, &
                                                  begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
-                                                 option_text, option_word
+                                                 option_text, option_word, any_number
     use faststrip_command_settings_method_options, only: setting_options, read_option
     use faststrip_command_settings_profiles, only: put_reading
     use faststrip_command_settings_table, only: settings, value_t, of_group
@@ -30,10 +30,6 @@ module faststrip_command_profile
     private
 
     public :: run_profile
-
-    ! Tuned [files]: on one command line. Origin: capacity.
-    integer, parameter :: most_files = 100000
-
 
     ! Tuned [points]: of a standard profile along y. Origin: chosen.
     integer, parameter :: nominal_points = 4001
@@ -75,7 +71,7 @@ contains
             option_t('--align', 'HOW', 'lay a rail on the nominal one: field (default), none'), &
             option_t('--kind', 'KIND', 'wheel or rail, where the file does not say'), &
             setting_options('wheel'), cleaning_options]
-        call parse_command(command, 1, most_files)
+        call parse_command(command, 1, any_number)
         call take_reading(command, options)
         call take_cleaning(command, cleaning)
         n = size(command%arguments)

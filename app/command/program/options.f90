@@ -12,11 +12,17 @@ module faststrip_command_program_options
     public :: command_t, option_t, argument_t
     public :: command_argument, need_nothing_more, refuse_subcommand, parse_command, given, &
         option_text, option_number, option_integer, option_word, option_pair, option_part, &
-        refuse_value, given_options, has_option, most_parts
+        refuse_value, given_options, has_option, any_number, most_parts, most_threads
 
+    !> As many arguments more as the system lets a command line have.
+    integer, parameter :: any_number = huge(1)
     !> Most parts of a work.
-    ! Tuned [parts]. Origin: capacity.
+    ! Tuned [parts]. Origin: capacity: a name of each is kept, 100 bytes.
     integer, parameter :: most_parts = 100000
+    !> Most threads.
+    !> Tuned [threads]. Origin: capacity: more than any machine has cores, each with memory of its
+    !> own.
+    integer, parameter :: most_threads = 1024
 
     !> One option, `--name VALUE` or `--name=VALUE`; a flag has no value.
     type :: option_t
@@ -81,7 +87,7 @@ contains
         integer, intent(in), optional :: n_optional !! how many more it may take
 
         character(len=:), allocatable :: word
-        integer :: i, equals, at, n_most
+        integer :: i, equals, at, n_more
         logical :: only_arguments
 
         allocate (command%arguments(0))
@@ -126,11 +132,11 @@ contains
         end do
         if (size(command%arguments) < n_arguments) &
             call usage_error('missing ' // command%usage, command%name)
-        n_most = n_arguments
-        if (present(n_optional)) n_most = n_most + n_optional
-        if (size(command%arguments) > n_most) &
-            call usage_error('too many arguments: ' // command%arguments(n_most + 1)%text, &
-                             command%name)
+        n_more = 0
+        if (present(n_optional)) n_more = n_optional
+        if (size(command%arguments) - n_arguments > n_more) &
+            call usage_error('too many arguments: ' &
+                             // command%arguments(n_arguments + n_more + 1)%text, command%name)
         call start_signals(printable(working_on(command)))
         call take_files(command)
     end subroutine parse_command
