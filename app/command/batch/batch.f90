@@ -37,14 +37,17 @@ module faststrip_command_batch
     use faststrip_command_settings_methods, only: settings_t
     use faststrip_command_program_netcdf_file, only: is_netcdf, check_names, use_single_precision
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
-                                                 option_integer, given, given_options
+                                                 option_integer, given, given_options, &
+                                                 most_threads
     use faststrip_command_batch_parts, only: part_options, part_choice_t, take_part_options, &
                                              share_of, part_beginning, part_name, parts_t, &
-                                             start_parts, next_part, mark_part, wait_for_others
+                                             start_parts, next_part, mark_part, wait_for_others, &
+                                             least_time
     use faststrip_command_rows_result_csv, only: result_columns, put_notes
     use faststrip_command_batch_store, only: store_t, take_store, open_store, resume_store, &
                                              append_to_store, finish_store, release_store, &
-                                             is_made, remove_made, check_store_of_part
+                                             is_made, remove_made, check_store_of_part, most_lost, &
+                                             piece_length
     use faststrip_command_program_system, only: file_kind, kind_file, set_progress, be_quiet, &
                                                 use_one_thread_each
     implicit none
@@ -52,15 +55,9 @@ module faststrip_command_batch
 
     public :: run_batch, case_columns
 
-    !> Most threads.
-    !> Tuned [threads]. Origin: capacity.
-    integer, parameter :: most_threads = 1024
-    !> Rows and characters of a chunk at most.
-    !> Tuned [rows, characters]. Origin: chosen: 10 MB in memory with their results.
-    integer, parameter :: most_rows = 4096, most_text = 1048576
-    !> How long a chunk shall take, s, and how many chains each thread has of it at least.
-    !> Tuned [s, chains]. Origin: chosen: what a killed run loses, what waits for the last chain.
-    real(wp), parameter :: least_time = 0.25_wp, most_time = 1.0_wp
+    !> Most rows of a chunk; of characters a piece.
+    !> Tuned [rows]. Origin: chosen: 10 MB in memory with their results.
+    integer, parameter :: most_rows = 4096
     !> Tuned [chains]: of a thread in a chunk at least. Origin: chosen: what waits for the last one.
     integer, parameter :: least_chains = 4
 
@@ -549,7 +546,7 @@ contains
         do while (job%stream%row < last)
             ! Chains stay together.
             if (modulo(chunk%n, job%chain) == 0 .and. &
-                (chunk%n >= job%wanted .or. chunk%end_of(chunk%n) > most_text)) exit
+                (chunk%n >= job%wanted .or. chunk%end_of(chunk%n) > piece_length)) exit
             call find_row(job%stream, from, to, found, status)
             if (.not. (is_error(status) .or. found) .and. job%is_file) &
                 call set_place_status(status, st_file_format, 'the file has changed', '', &
@@ -575,7 +572,7 @@ contains
         ! Room of the longest chain behind what is enough.
         integer, parameter :: most = 2*most_rows
 
-        allocate (character(len=most_text/4) :: chunk%text)
+        allocate (character(len=piece_length/4) :: chunk%text)
         allocate (chunk%end_of(0:most), chunk%line(most), chunk%code(most), chunk%words(most), &
                   chunk%worker(most), chunk%from(most), chunk%to(most))
         chunk%end_of(0) = 0
@@ -631,7 +628,7 @@ contains
             call count_status(counts, chunk%code(i))
             length = chunk%length + chunk%to(i) - chunk%from(i) + 1
             if (length > len(chunk%results)) then
-                allocate (character(len=2*length + most_text/4) :: longer)
+                allocate (character(len=2*length + piece_length/4) :: longer)
                 longer(:chunk%length) = chunk%results(:chunk%length)
                 call move_alloc(longer, chunk%results)
             end if
@@ -673,7 +670,7 @@ contains
         real(wp), intent(in) :: seconds
 
         if (seconds < least_time .and. n >= job%wanted) job%wanted = 2*job%wanted
-        if (seconds > most_time) job%wanted = job%wanted/2
+        if (seconds > most_lost) job%wanted = job%wanted/2
         job%wanted = min(most_rows, max(job%wanted, least_chains*job%threads*job%chain))
     end subroutine choose_size
 

@@ -14,16 +14,16 @@ module faststrip_command_batch_gap_cache
     use faststrip_command_program_console, only: exit_bad_input
     use faststrip_command_program_files, only: trouble_t, check_input
     use faststrip_command_batch_gap_digests, only: gap_digests_t, wants_digest, add_digest, &
-                                                   digest_of_gap
+                                                   digest_of_gap, most_gaps
     use faststrip_command_contact_solver, only: ready_gap_t, make_ready
     implicit none
     private
 
     public :: gap_cache_t, start_cache, own_gap_t, find_gap, tidy_cache
 
-    !> Most gaps that are kept, and most points of them all, 150 bytes each: 30 MB.
-    !> Tuned [gaps, points]. Origin: chosen: a table of some profiles and shifts.
-    integer, parameter :: most_gaps = 1024, most_points = 200000
+    !> Most points of all gaps that are kept, 150 bytes each: 30 MB.
+    !> Tuned [points]. Origin: chosen: a table of some profiles and shifts.
+    integer, parameter :: most_points = 200000
     ! Lists of names, by a number made from the name.
     integer, parameter :: n_lists = 2*most_gaps
 

@@ -12,10 +12,12 @@ module faststrip_command_batch_gap_digests
     private
 
     public :: gap_digests_t, wants_digest, add_digest, digest_of_gap, take_digests, put_digests
-    public :: changed_file
+    public :: changed_file, most_gaps
 
-    !> Tuned [files]: most of them. Origin: chosen: 100 kB in a journal, 60 ms to read them.
-    integer, parameter :: most_digests = 1000
+    !> Most gap files that a run keeps in mind.
+    !> Tuned [files]. Origin: chosen: 100 kB in a journal, 60 ms to read them; a table of some
+    !> profiles and shifts.
+    integer, parameter :: most_gaps = 1024
     !> What a manifest calls them, before the name of the file.
     character(len=*), parameter :: digest_prefix = 'gap_sha256 '
 
@@ -45,7 +47,7 @@ contains
 
         integer :: i
 
-        wants = digests%n < most_digests
+        wants = digests%n < most_gaps
         if (.not. wants) call find(digests, path, i, wants)
     end function wants_digest
 
@@ -63,9 +65,9 @@ contains
         call find(digests, path, i, is_there)
         if (is_there) then
             is_like = digests%values(i)%text == digest
-        else if (digests%n < most_digests .and. digest /= '') then
+        else if (digests%n < most_gaps .and. digest /= '') then
             if (.not. allocated(digests%names)) &
-                allocate (digests%names(most_digests), digests%values(most_digests))
+                allocate (digests%names(most_gaps), digests%values(most_gaps))
             do k = digests%n, i, -1
                 call move_alloc(digests%names(k)%text, digests%names(k + 1)%text)
                 call move_alloc(digests%values(k)%text, digests%values(k + 1)%text)

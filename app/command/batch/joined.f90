@@ -11,7 +11,8 @@ module faststrip_command_batch_joined
     use faststrip_command_batch_manifest, only: manifest_t, set_value, value_of, number_of, &
                                                 unlike_value, status_counts_t, add_counts, &
                                                 put_counts, read_manifest
-    use faststrip_command_batch_store, only: store_t, append_to_store, is_made, manifest_path
+    use faststrip_command_batch_store, only: store_t, append_to_store, is_made, manifest_path, &
+                                             piece_length
     implicit none
     private
 
@@ -24,10 +25,6 @@ module faststrip_command_batch_joined
         type(status_counts_t) :: counts           !! of all items
         integer(int64), private :: header = 0     ! bytes of each part's header
     end type joined_t
-
-    !> Bytes that are copied at once.
-    !> Tuned [bytes]. Origin: capacity.
-    integer, parameter :: most_bytes = 1048576
 
 contains
 
@@ -152,10 +149,10 @@ contains
         call clear_status(status)
         stream = c_open_input(name // c_null_char)
         if (c_associated(stream)) then
-            allocate (character(len=most_bytes) :: piece)
+            allocate (character(len=piece_length) :: piece)
             code = c_fseek(stream, int(from, c_long), 0_c_int)
             do while (code == 0)
-                n = c_fread(piece, 1_c_size_t, int(most_bytes, c_size_t), stream)
+                n = c_fread(piece, 1_c_size_t, int(piece_length, c_size_t), stream)
                 if (n == 0) exit
                 call append_to_store(store, piece(:n), manifest, status)
                 if (is_error(status)) exit

@@ -3,7 +3,9 @@
 module faststrip_command_batch_parts
     use, intrinsic :: iso_c_binding, only: c_int
     use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_base_kinds, only: wp
     use faststrip_base_text, only: integer_text
+    use faststrip_command_batch_store, only: most_lost
     use faststrip_command_program_options, only: command_t, option_t, given, option_integer, &
                                                  option_part, most_parts
     use faststrip_command_program_console, only: usage_error
@@ -12,10 +14,11 @@ module faststrip_command_batch_parts
 
     public :: part_options, part_choice_t, take_part_options, share_of
     public :: part_beginning, part_name
-    public :: parts_t, start_parts, next_part, mark_part, wait_for_others
+    public :: parts_t, start_parts, next_part, mark_part, wait_for_others, least_time
 
-    ! Tuned [ms]: how long to wait for parts that other processes have. Origin: chosen.
-    integer(c_int), parameter :: nap_ms = 200
+    !> How long a piece of work shall take at least, s; so long parts are waited for that other
+    !> processes have.
+    real(wp), parameter :: least_time = 0.25_wp*most_lost
 
     !> For the table of a subcommand.
     type(option_t), parameter :: part_options(3) = [ &
@@ -139,7 +142,7 @@ contains
 
     !> Let other processes do what they have in hand.
     subroutine wait_for_others()
-        call c_nap(nap_ms)
+        call c_nap(int(1.0e3_wp*least_time, c_int)) ! Given: ms
     end subroutine wait_for_others
 
     !> Say what became of the part that was tried.

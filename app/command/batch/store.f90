@@ -14,7 +14,9 @@
 module faststrip_command_batch_store
     use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char
     use, intrinsic :: iso_fortran_env, only: int64
-    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_file_write
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, message_length, &
+                                     st_file_write
     use faststrip_files_csv, only: csv_writer_t, open_csv, put_text, close_csv, failure_words, &
                                    find_final_path, find_free_temporary
     use faststrip_files_digest, only: hash_file
@@ -32,12 +34,18 @@ module faststrip_command_batch_store
 
     public :: store_t, open_store, resume_store, append_to_store, finish_store, release_store
     public :: take_store, check_store_of_part, is_made, manifest_path, remove_made
+    public :: most_lost, piece_length
 
     !> Words of the names beside an output.
     character(len=*), parameter :: lock_word = '.lock', partial_word = '.partial', &
                                    journal_word = '.journal', manifest_word = '.manifest'
-    !> Tuned [s]: between two times when what was written is brought to the disk. Origin: chosen.
-    integer, parameter :: synchronised_every = 2
+    !> What a run may lose that is killed, or whose machine fails: how long a piece of work takes,
+    !> and how much of it is not yet brought to the disk.
+    !> Tuned [s]. Origin: chosen: bringing to the disk takes some 10 ms.
+    real(wp), parameter :: most_lost = 1.0_wp
+    !> Characters that are read, copied or written at once.
+    !> Tuned [characters]. Origin: chosen: 10 MB in memory with all that is made of them.
+    integer, parameter :: piece_length = 1048576
     ! What `faststrip_lock` gives where something lies that is no lock.
     ! Given: a number in C.
     integer(c_int), parameter :: lock_of_others = -3
@@ -283,16 +291,15 @@ contains
         character(len=:), allocatable, intent(out) :: holder !! which one; empty if not known
         type(status_t), intent(out) :: status  !! `st_file_write`: the words of the system
 
-        ! Tuned [characters]: of the system's words. Origin: capacity.
-        integer(c_int), parameter :: longest = 200
-        character(kind=c_char) :: words(longest)
+        character(kind=c_char) :: words(message_length)
         character(len=:), allocatable :: temporary
         integer :: i
 
         call clear_status(status)
         holder = ''
         call find_free_temporary(path, temporary)
-        lock = c_lock(path // c_null_char, temporary // c_null_char, words, longest)
+        lock = c_lock(path // c_null_char, temporary // c_null_char, words, &
+                      int(message_length, c_int))
         if (lock >= 0) then
             call keep_in_mind(path)
         else if (lock == lock_of_others) then
@@ -300,7 +307,7 @@ contains
         else if (lock < -1) then
             call set_status(status, st_file_write, trim(failure_words()))
         else
-            do i = 1, longest
+            do i = 1, message_length
                 if (words(i) == c_null_char) exit
                 holder = holder // words(i)
             end do
@@ -482,7 +489,7 @@ contains
         store%bytes = store%bytes + len(text, int64)
         call system_clock(now, rate)
         code = 0
-        if (now - store%synchronised > synchronised_every*rate) then
+        if (now - store%synchronised > most_lost*rate) then
             code = c_synchronise(store%file)
             store%synchronised = now
         end if
