@@ -138,7 +138,7 @@ class CaseFiles(ProgramTest):
             (gap_case(extra="&numerics\n strips_per_patch = 15.5\n/\n"), ["(c.nml:13)", "15.5"]),
             (gap_case(extra="&numerics\n strips_per_patch = 99999999999\n/\n"), ["(c.nml:13)"]),
             (gap_case(gap_file="gap.csv"[:3] + "'x"), ["(c.nml:3)"]),
-            (gap_case(load="1e5 !" + 2000 * "x"), ["(c.nml:4)"]),
+            (gap_case(load="1e5 !" + 70000 * "x"), ["(c.nml:4)", "65536 characters"]),
         ):
             self.check(text, *says)
 

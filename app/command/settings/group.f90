@@ -9,7 +9,8 @@ module faststrip_command_settings_group
     use faststrip_base_plausible, only: likely_mistake
     use faststrip_base_status, only: status_t, number_text
     use faststrip_base_text, only: trim_blanks, lower_case, integer_text
-    use faststrip_files_lines, only: text_file_t, open_text, read_line, close_text
+    use faststrip_files_csv, only: csv_text_t
+    use faststrip_files_lines, only: text_file_t, open_text, read_line, close_text, longest_line
     use faststrip_command_program_console, only: fail, fail_on_error, exit_bad_input
     use faststrip_command_program_files, only: take_input
     use faststrip_command_settings_doubts, only: hold_value
@@ -23,8 +24,6 @@ module faststrip_command_settings_group
     public :: case_text_t, group_t, read_case_text, read_group, is_set, given_value, number_of
     public :: text_of, list_of, beside, refuse, refuse_each
 
-    ! Tuned [characters]: longest line of a case file. Origin: capacity.
-    integer, parameter :: line_length = 1024
     ! Tuned [lines]: most of a case file. Origin: capacity: the longest lists take a few hundred.
     integer, parameter :: most_case_lines = 10000
     ! What names are made of.
@@ -36,8 +35,8 @@ module faststrip_command_settings_group
 
     !> A case file as it was read.
     type :: case_text_t
-        character(len=:), allocatable :: file              !! its name
-        character(len=line_length), allocatable :: line(:) !! its lines, comments blanked
+        character(len=:), allocatable :: file      !! its name
+        type(csv_text_t), allocatable :: line(:)   !! its lines without comments
     end type case_text_t
 
     !> The values of a group.
@@ -62,7 +61,6 @@ contains
         type(text_file_t) :: file
         type(status_t) :: status
         character(len=:), allocatable :: text
-        character(len=line_length), allocatable :: more(:)
         integer :: n
         logical :: found
 
@@ -70,23 +68,16 @@ contains
         content%file = path
         call open_text(path, file, status)
         call fail_on_error(status)
-        allocate (content%line(64))
+        allocate (content%line(most_case_lines))
         n = 0
         do
             call read_line(file, text, found, status)
             call fail_on_error(status)
             if (.not. found) exit
-            if (n == size(content%line)) then
-                allocate (more(2*n))
-                more(:n) = content%line
-                call move_alloc(more, content%line)
-            end if
             n = n + 1
             if (n > most_case_lines) call refuse_line(path, n, 'a case file must have at most ' &
                 // integer_text(most_case_lines) // ' lines', '')
-            if (len(text) > line_length) call refuse_line(path, n, 'a line must have at most ' &
-                // integer_text(line_length) // ' characters', '')
-            content%line(n) = without_comment(text)
+            content%line(n)%text = without_comment(text)
         end do
         call close_text(file)
         content%line = content%line(:n)
@@ -104,7 +95,7 @@ contains
         open_at = 0
         is_seen = .false.
         do i = 1, size(content%line)
-            text = trim_blanks(content%line(i))
+            text = trim_blanks(content%line(i)%text)
             if (len(text) == 0) cycle
             if (text(1:1) == '&') then
                 if (open_at > 0) call refuse_open()
@@ -131,7 +122,7 @@ contains
 
         subroutine refuse_open()
             call refuse_line(content%file, open_at, 'a group must be closed by /', &
-                             trim_blanks(content%line(open_at)))
+                             trim_blanks(content%line(open_at)%text))
         end subroutine refuse_open
     end subroutine check_groups
 
@@ -173,7 +164,7 @@ contains
         integer :: i
 
         do i = 1, size(content%line)
-            text = trim_blanks(content%line(i))
+            text = trim_blanks(content%line(i)%text)
             if (len(text) == 0) cycle
             if (group%first == 0 .and. text(1:1) == '&') then
                 if (lower_case(first_word(text(2:))) == group%name) group%first = i
@@ -194,7 +185,7 @@ contains
 
         at = 0
         do i = group%first, group%last
-            line = trim(content%line(i))
+            line = content%line(i)%text
             from = 1
             if (i == group%first) from = index(line, '&') + len(group%name) + 1
             do
@@ -230,7 +221,7 @@ contains
                 call take_part(text)
                 return
             end if
-            if (len(group%value(at)%text) > line_length) &
+            if (len(group%value(at)%text) > longest_line) &
                 call refuse_line(group%file, i, '&' // group%name // ' ' // &
                                  trim(settings(group%row(at))%key) // ' must be one value', text)
             group%value(at)%text = trim_blanks(group%value(at)%text // ' ' // text)

@@ -10,6 +10,7 @@ module faststrip_command_settings_table
     use faststrip_base_plausible, only: of_friction, of_contact_angle, of_gauge, of_gauge_depth, &
                                         of_inclination, of_noise, of_poisson_ratio, of_radius, &
                                         of_shift, of_slip_speed, of_speed, of_tread_line, of_yield
+    use faststrip_base_status, only: message_length
     use faststrip_base_text, only: lower_case, parse_real, parse_integer, integer_text, trim_blanks
     use faststrip_contact_methods, only: normal_table, tangential_table, most_strips, most_rows
     use faststrip_contact_wanted, only: target_names
@@ -45,8 +46,6 @@ module faststrip_command_settings_table
     integer, parameter :: most_shifts = 1000
 
     character, parameter :: newline = new_line('a')
-    ! Tuned [characters]: of what a value must be. Origin: capacity: the longest list fits.
-    integer, parameter :: words_length = 240
 
     !> One setting.
     type :: setting_t
@@ -480,8 +479,6 @@ contains
         real(wp), allocatable, intent(inout) :: list(:)
         logical, intent(out) :: is_read
 
-        ! Tuned [numbers]: the most of one word. Origin: capacity.
-        integer, parameter :: most_times = 10000
         character(len=*), parameter :: blanks = ' ' // achar(9)
         integer :: from, to, star, times
         real(wp) :: number
@@ -495,14 +492,14 @@ contains
             times = 1
             if (star > 0) then
                 call parse_integer(text(from:from + star - 2), times, is_read)
-                if (.not. is_read .or. times < 1 .or. times > most_times) then
+                if (.not. is_read .or. times < 1) then
                     is_read = .false.
                     return
                 end if
             end if
             call read_number(text(from + star:to), number, is_read)
             if (.not. is_read) return
-            list = [list, spread(number, 1, times)]
+            list = [list, spread(number, 1, min(times, most + 1))]
             ! What parts it from the next one: blanks, with one comma at most.
             from = to + 1
             from = from + verify(text(from:) // 'x', blanks) - 1
@@ -530,7 +527,7 @@ contains
     !> What kind of value it must be, after `must be`.
     pure function kind_words(setting) result(words)
         type(setting_t), intent(in) :: setting
-        character(len=words_length) :: words !! of fixed length: threads call it
+        character(len=message_length) :: words !! of fixed length: threads call it
 
         select case (setting%kind)
         case (a_whole); words = 'a whole number'
@@ -545,7 +542,7 @@ contains
     pure function range_words(setting, number) result(words)
         type(setting_t), intent(in) :: setting
         real(wp), intent(in), optional :: number !! that lies elsewhere, for the end it is beyond
-        character(len=words_length) :: words     !! of fixed length: threads call it
+        character(len=message_length) :: words     !! of fixed length: threads call it
 
         words = ''
         select case (setting%kind)
@@ -577,7 +574,7 @@ contains
     !> All that it must be, after `must be`, for who sees nothing but the words.
     pure function full_words(setting) result(words)
         type(setting_t), intent(in) :: setting
-        character(len=words_length) :: words
+        character(len=message_length) :: words
 
         words = range_words(setting)
         select case (setting%kind)
@@ -594,7 +591,7 @@ contains
     !> What the help of an option says.
     pure function option_help(setting) result(text)
         type(setting_t), intent(in) :: setting
-        character(len=words_length) :: text
+        character(len=message_length) :: text
 
         text = setting%help
         if (setting%default /= '' .and. index(text, 'default') == 0) &
@@ -604,7 +601,7 @@ contains
     !> What one of some words must be, in files.
     pure function one_of(words) result(text)
         character(len=*), intent(in) :: words(:)
-        character(len=words_length) :: text
+        character(len=message_length) :: text
 
         integer :: i
 
@@ -620,7 +617,7 @@ contains
 
     pure function with_or(words) result(text)
         character(len=*), intent(in) :: words(:)
-        character(len=words_length) :: text
+        character(len=message_length) :: text
 
         integer :: i
 
