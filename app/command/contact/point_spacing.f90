@@ -8,6 +8,7 @@ module faststrip_command_contact_point_spacing
     use faststrip_base_status, only: status_t, is_error, add_limitation, number_text, &
                                      st_under_resolved
     use faststrip_geometry_profile, only: thin_profile, profile_curve
+    use faststrip_normal_limitations, only: default_resolution
     use faststrip_contact_methods, only: normal_strip, tangential_faststrip
     use faststrip_command_settings_case_file, only: case_t
     use faststrip_contact_case, only: asked_t
@@ -19,9 +20,11 @@ module faststrip_command_contact_point_spacing
 
     public :: point_spacing_t, judge_spacing, name_spacing
 
-    ! Tuned [1]: changes that are named: of pmax, and of forces over mu N. Origin: chosen: what
-    ! strips are wrong by.
-    real(wp), parameter :: pmax_limit = 0.05_wp, force_limit = 0.01_wp
+    ! The change of pmax that is named: half of the error that is.
+    real(wp), parameter :: pmax_limit = 0.5_wp*default_resolution
+    ! Tuned [1]: the change of forces over mu N that is named. Origin: chosen: what strips are wrong
+    ! by.
+    real(wp), parameter :: force_limit = 0.01_wp
 
     ! Given: the unit.
     real(wp), parameter :: percent = 100.0_wp

@@ -2,6 +2,7 @@
 module faststrip_command_contact_prepared_case
     use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: rounding
     use faststrip_base_status, only: status_t, clear_status, is_error, number_text
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_at_angle
@@ -20,10 +21,6 @@ module faststrip_command_contact_prepared_case
     private
 
     public :: prepared_case_t, prepare_case, take_lists, put_gap, put_profiles
-
-    !> Tuned [mm]: shifts nearer to each other than this are the same. Origin: safeguard: above
-    !> rounding.
-    real(wp), parameter :: same_shift = 1.0e-9_wp
 
     !> One contact, ready to be solved: gap, normal force, creepages about the rigid contact point.
     type, extends(contact_case_t) :: prepared_case_t
@@ -75,7 +72,7 @@ contains
 
         integer :: i
 
-        i = findloc(abs(case%shifts - prepared%shift) < same_shift, .true., dim=1)
+        i = findloc(abs(case%shifts - prepared%shift) < rounding, .true., dim=1)
         if (i == 0) return
         if (size(case%shift_loads) > 0) prepared%load = case%shift_loads(i)
         if (size(case%shift_cksi) > 0) prepared%creepage = creepage_t( &

@@ -1,6 +1,7 @@
 !> `faststrip conicity`: equivalent conicity from profiles or from a rolling radius difference.
 module faststrip_command_wheelset_conicity
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: rounding
     use faststrip_base_status, only: status_t, is_error, number_text, status_word, &
                                      st_out_of_range, st_not_increasing, st_no_wave
     use faststrip_base_text, only: integer_text, parse_real, trim_blanks, set_place_status
@@ -27,13 +28,9 @@ module faststrip_command_wheelset_conicity
 
     ! Given: EN 15302:2008+A1:2010, Annex E: the least amplitude and the step, mm.
     real(wp), parameter :: first_amplitude = 1.0_wp, amplitude_step = 0.1_wp
-    ! A step counts to the last amplitude if it misses it by less than this part of a step.
-    ! Tuned [1]. Origin: chosen; rounding of decimals.
-    real(wp), parameter :: step_slack = 1.0e-9_wp
-    ! Tuned [amplitudes]: more than this are a slip of the step. Origin: safeguard.
-    integer, parameter :: most_amplitudes = 1000000
-    ! Tuned [shifts]: the same of shifts to one side. Origin: safeguard.
-    integer, parameter :: most_shifts = 100000
+    ! More amplitudes, or shifts to one side, are a slip of the step.
+    ! Tuned [amplitudes, shifts]. Origin: safeguard.
+    integer, parameter :: most_values = 1000000
     ! Far enough for amplitudes of 7.5 mm and unequal radii, mm.
     ! Tuned [mm]. Origin: chosen.
     real(wp), parameter :: standard_y_max = 10.0_wp
@@ -112,13 +109,13 @@ contains
             path = command%arguments(1)%text
             y_max = option_number(command, '--y-max', standard_y_max, above=0)
             y_step = option_number(command, '--y-step', amplitude_step, above=0)
-            if (y_max/y_step > most_shifts) call usage_error('--y-step must leave at most ' &
-                // integer_text(most_shifts) // ' shifts, got ' // trim(number_text(y_step)), &
+            if (y_max/y_step > most_values) call usage_error('--y-step must leave at most ' &
+                // integer_text(most_values) // ' shifts, got ' // trim(number_text(y_step)), &
                 command%name)
             if (y_step > y_max) call usage_error('--y-step must be at most --y-max, got ' &
                 // trim(number_text(y_step)) // ' and ' // trim(number_text(y_max)), command%name)
             call read_bodies_of(path, case)
-            call tabulate_functions(path, case, y_step, int(y_max/y_step + step_slack), &
+            call tabulate_functions(path, case, y_step, int(y_max/y_step + rounding), &
                                     given(command, '--roll'), functions)
             y = functions%shift
             delta_r = functions%delta_r
@@ -231,14 +228,14 @@ contains
         if (from > to .and. given(command, '--to')) &
             call usage_error('--to must be at least --from, got ' // trim(number_text(to)) &
                              // ' and ' // trim(number_text(from)), command%name)
-        if (from > to*(1.0_wp + step_slack)) &
+        if (from > to*(1.0_wp + rounding)) &
             call fail(exit_bad_input, 'the table ends before the amplitude, got ' &
                       // trim(number_text(from)) // ', at most ' // trim(number_text(largest)) &
                       // ' mm (' // path // ')')
-        if ((to - from)/step > most_amplitudes) &
-            call usage_error('--step must leave at most ' // integer_text(most_amplitudes) &
+        if ((to - from)/step > most_values) &
+            call usage_error('--step must leave at most ' // integer_text(most_values) &
                              // ' amplitudes, got ' // trim(number_text(step)), command%name)
-        amplitudes = [(from + i*step, i=0, int((to - from)/step + step_slack))]
+        amplitudes = [(from + i*step, i=0, int((to - from)/step + rounding))]
     end subroutine take_steps
 
     subroutine check_order(table, y, row)
