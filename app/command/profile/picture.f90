@@ -7,7 +7,7 @@ module faststrip_command_profile_picture
     use faststrip_command_program_console, only: printable
     use faststrip_command_profile_measures, only: measures_t
     use faststrip_command_profile_svg, only: panel_t, begin_svg, end_svg, put_panel, put_curve, &
-                                             put_dots, panel_height
+                                             put_dots, panel_height, space, panel_width
     implicit none
     private
 
@@ -22,17 +22,17 @@ module faststrip_command_profile_picture
         logical, allocatable :: is_known(:)       !! is it?
     end type nominal_t
 
-    ! Tuned [pixels]: between panels, above the first, height of a panel; of the highest. Origin:
-    ! chosen: a picture.
-    real(wp), parameter :: between = 60.0_wp, first_top = 30.0_wp, low = 160.0_wp, &
-                           high = 800.0_wp
+    ! Between panels, above the first; the least height of one, which is at most as high as it is
+    ! wide; pixels.
+    real(wp), parameter :: between = 3.0_wp*space, first_top = 0.5_wp*between, &
+                           low = 0.25_wp*panel_width
     ! Tuned [1/mm]: a curvature of this is drawn at the edge of the panel. Origin: chosen: a
     ! picture.
     real(wp), parameter :: largest_curvature = 0.12_wp
     ! Tuned [mm]: range of wear that is shown at least. Origin: chosen: a picture.
     real(wp), parameter :: least_wear = 0.1_wp
-    ! Tuned [1, mm]: margin beside a range, of it and at least. Origin: chosen: a picture.
-    real(wp), parameter :: share_of_margin = 0.04_wp, least_margin = 0.01_wp
+    ! Tuned [1]: margin beside a range, over it. Origin: chosen: a picture.
+    real(wp), parameter :: share_of_margin = 0.04_wp
 
 contains
 
@@ -53,7 +53,7 @@ contains
             panel%x = padded([minval(y), maxval(y)])
             ! Down is down.
             panel%y = padded([maxval(z), minval(z)])
-            panel%height = min(max(panel_height(panel), low), high)
+            panel%height = min(max(panel_height(panel), low), panel_width)
             if (panel_height(panel) < low) panel%y = 0.5_wp*sum(panel%y) &
                 + (panel%y - 0.5_wp*sum(panel%y))*(low/panel_height(panel))
             panel%x_name = 'y to the field side, mm'
@@ -141,7 +141,7 @@ contains
 
         real(wp) :: margin
 
-        margin = max(share_of_margin*abs(range(2) - range(1)), least_margin)
+        margin = share_of_margin*max(abs(range(2) - range(1)), least_wear)
         wider = range + [-margin, margin]*merge(1.0_wp, -1.0_wp, range(2) >= range(1))
     end function padded
 end module faststrip_command_profile_picture

@@ -6,13 +6,13 @@ module faststrip_command_profile_svg
     implicit none
     private
 
-    public :: panel_t, begin_svg, end_svg, put_panel, put_curve, put_dots, panel_height
+    public :: panel_t, begin_svg, end_svg, put_panel, put_curve, put_dots, panel_height, space, &
+              panel_width
 
     !> Where a panel lies, in pixels, and what it shows.
     type :: panel_t
         real(wp) :: top = 0.0_wp                  !! pixels
-        ! Tuned [pixels]: height. Origin: chosen: a picture.
-        real(wp) :: height = 200.0_wp             !! pixels
+        real(wp) :: height = 0.0_wp               !! pixels
         ! Given: the unit interval.
         real(wp) :: x(2) = [0.0_wp, 1.0_wp]       !! range along x
         ! Given: the unit interval.
@@ -21,10 +21,14 @@ module faststrip_command_profile_svg
         character(len=60) :: y_name = ''          !! with its unit
     end type panel_t
 
-    ! Tuned [pixels]: of a picture: its width, margins, ticks, and how far numbers and names of an
-    ! axis are from it. Origin: chosen: a picture.
-    real(wp), parameter :: width = 900.0_wp, left = 80.0_wp, right = 20.0_wp, tick = 5.0_wp, &
-                           below = 15.0_wp, beside = 6.0_wp, far_below = 32.0_wp
+    !> Width of a picture, and the space between its parts.
+    !> Tuned [pixels]. Origin: chosen: a column of a page; a line of its words.
+    real(wp), parameter :: width = 900.0_wp, space = 20.0_wp
+    ! Margins, ticks, and how far numbers and names of an axis are from it, pixels.
+    real(wp), parameter :: left = 4.0_wp*space, right = space, tick = 0.25_wp*space, &
+                           beside = tick, below = 3.0_wp*tick, far_below = 2.0_wp*below
+    !> Width of a panel.
+    real(wp), parameter :: panel_width = width - left - right
     ! Tuned [ticks]: the most of an axis. Origin: chosen: a picture.
     integer, parameter :: most_ticks = 9
     ! Given: round steps are 1, 2, 5, 10.
@@ -57,8 +61,7 @@ contains
     pure real(wp) function panel_height(panel)
         type(panel_t), intent(in) :: panel !! its ranges
 
-        panel_height = abs(panel%y(2) - panel%y(1))*(width - left - right) &
-                       /abs(panel%x(2) - panel%x(1))
+        panel_height = abs(panel%y(2) - panel%y(1))*panel_width/abs(panel%x(2) - panel%x(1))
     end function panel_height
 
     !> Frame, ticks and names.
@@ -70,7 +73,7 @@ contains
         integer :: i
 
         call put_line(writer, '<rect x="' // pixel(left) // '" y="' // pixel(panel%top) // &
-                      '" width="' // pixel(width - left - right) // '" height="' // &
+                      '" width="' // pixel(panel_width) // '" height="' // &
                       pixel(panel%height) // '" fill="none" stroke="black"/>')
         step = tick_step(panel%x)
         at = step*ceiling(minval(panel%x)/step)
@@ -106,36 +109,21 @@ contains
         character(len=*), intent(in) :: color        !! of SVG
         logical, intent(in) :: dashed                !! else solid
 
-        ! Tuned [characters]: of a line of points. Origin: capacity.
-        integer, parameter :: longest = 400
         character(len=:), allocatable :: points
-        integer :: i, n
+        integer :: i
 
         points = ''
-        n = 0
         do i = 1, size(x)
             if (is_inside(panel, x(i), y(i))) then
-                points = points // place(i)
-                n = n + 1
-                if (n < longest) cycle
-                call flush_points()
-                points = place(i)
-                n = 1
+                points = points // pixel(across(panel, x(i))) // ',' // pixel(up(panel, y(i))) &
+                         // ' '
             else
                 call flush_points()
-                n = 0
             end if
         end do
         call flush_points()
 
     contains
-
-        function place(i) result(text)
-            integer, intent(in) :: i
-            character(len=:), allocatable :: text
-
-            text = pixel(across(panel, x(i))) // ',' // pixel(up(panel, y(i))) // ' '
-        end function place
 
         subroutine flush_points()
             character(len=:), allocatable :: dashes
@@ -179,7 +167,7 @@ contains
         type(panel_t), intent(in) :: panel
         real(wp), intent(in) :: x
 
-        across = left + (width - left - right)*(x - panel%x(1))/(panel%x(2) - panel%x(1))
+        across = left + panel_width*(x - panel%x(1))/(panel%x(2) - panel%x(1))
     end function across
 
     pure real(wp) function up(panel, y)
