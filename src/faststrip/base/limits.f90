@@ -5,7 +5,7 @@ module faststrip_base_limits
     private
 
     public :: most_steps, most_halvings, smallest_size, largest_size, nothing, beyond_all
-    public :: rounding
+    public :: too_large, largest_ratio, rounding, half_digits
 
     !> Most steps of a search that goes on until it is there.
     !> Tuned [steps]. Origin: safeguard: Newton's and secant steps take three to ten, a bracket that
@@ -26,4 +26,13 @@ module faststrip_base_limits
     !> Numbers that people gave as decimals and that differ by less are the same.
     !> Tuned [mm, 1]. Origin: safeguard: above rounding, below what anybody writes.
     real(wp), parameter :: rounding = 1.0e-9_wp
+    !> Lengths, loads and compliances above are refused: products of them do not overflow.
+    real(wp), parameter :: too_large = 1.0_wp/nothing
+    !> Proportions of lengths, coefficients of friction and creepages (spin in rad/mm) beyond this
+    !> are refused, or count as this.
+    !> Tuned [1, rad/mm]. Origin: safeguard: no contact has a thousandth of it.
+    real(wp), parameter :: largest_ratio = 1.0e6_wp
+    !> Places this near to each other, over an element's side, are one, and pressures of this part
+    !> of the largest none: half of the digits.
+    real(wp), parameter :: half_digits = sqrt(epsilon(1.0_wp))
 end module faststrip_base_limits

@@ -30,7 +30,7 @@
 module faststrip_normal_limitations
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: largest_size
+    use faststrip_base_limits, only: largest_size, nothing, too_large
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      add_limitation, add_words, message_length, st_bad_argument, &
                                      st_edge_of_data, st_flat_along_x, st_conformal, &
@@ -69,8 +69,6 @@ module faststrip_normal_limitations
     ! Of all heights' range: a step as high as this leads to a fill value, and not over noise.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: fill_step = 0.5_wp
-    ! Tuned [mm]: Penetrations outside are refused. Origin: safeguard: no product can overflow.
-    real(wp), parameter :: smallest_depth = 1.0e-60_wp, largest_depth = 1.0e60_wp
 
 contains
 
@@ -92,7 +90,7 @@ contains
         type(status_t), intent(out) :: status !! `st_out_of_range`
 
         call clear_status(status)
-        if (depth < smallest_depth .or. depth > largest_depth) &
+        if (depth < nothing .or. depth > too_large) &
             call set_status(status, st_out_of_range, 'a contact beyond all proportion: ' &
                             //'penetration '//trim(number_text(min(depth, huge(depth))))//' mm')
     end subroutine check_depth

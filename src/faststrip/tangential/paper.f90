@@ -32,13 +32,13 @@
 !> Slip is what scaling back leaves over of the elastic step, as in FASTSIM.
 module faststrip_tangential_paper
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: nothing
+    use faststrip_base_limits, only: largest_ratio, nothing
     use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_bad_argument, &
                                      st_out_of_range
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_normal_simple_patch_ellipse, only: patch_end, check_strips, most_slender
+    use faststrip_normal_simple_patch_ellipse, only: patch_end, check_strips
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion
@@ -262,7 +262,7 @@ contains
         total%b = 0.5_wp*(strips%y_right(last) - strips%y_left(first))       ! (26)
         total%a = area/(pi*total%b)                                          ! (27)
         patch%y0 = 0.5_wp*(strips%y_left(first) + strips%y_right(last))      ! (28)
-        ratio = min(max(total%b/total%a, 1.0_wp/most_slender), most_slender) ! (29)
+        ratio = min(max(total%b/total%a, 1.0_wp/largest_ratio), largest_ratio) ! (29)
         call kalker_coefficients(1.0_wp/ratio, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
         ! Given: the paper's (30)

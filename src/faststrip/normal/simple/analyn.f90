@@ -34,16 +34,18 @@ module faststrip_normal_simple_analyn
 
     public :: analyn_solve
 
-    ! Least curvature B that counts, over A, and over the mean of the gap up to the penetration:
-    ! the smaller of both.
-    ! Tuned [1]. Origin: 1e-4/mm, as in CONTACT, on a wheel of 460 mm; chosen: below what gaps of
-    ! one curvature have.
-    real(wp), parameter :: least_ratio = 0.092_wp, least_of_mean = 0.5_wp
+    ! Least curvature B that counts is the smaller of these parts of A and of the mean of the gap up
+    ! to the penetration.
+    ! Tuned [1]: Over A. Origin: 1e-4/mm, as in CONTACT, on a wheel of 460 mm.
+    real(wp), parameter :: least_ratio = 0.092_wp
+    ! Tuned [1]: Over the mean. Origin: chosen: below what gaps of one curvature have.
+    real(wp), parameter :: least_of_mean = 0.5_wp
     ! Places in a stretch below the penetration where the penetration left is looked at.
     ! Tuned [points]. Origin: chosen: patches narrower than the distance may be missed.
     integer, parameter :: probes = 16
     ! Change of ln(B/A) over that of ln(a/b), of which Newton's method starts.
-    ! Tuned [1]. Origin: chosen: between 3/2 of circles and 2.
+    ! Tuned [1]. Origin: chosen: between 3/2 of circles and 2; from 3/2 forces change in the ninth
+    ! digit.
     real(wp), parameter :: usual_slope = 1.7_wp
 
     !> One patch.

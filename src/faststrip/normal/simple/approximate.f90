@@ -31,20 +31,16 @@ module faststrip_normal_simple_approximate
     !> How near the load is to come; the pressures make up for the rest.
     !> Tuned [1]. Origin: chosen: far below the errors of the methods.
     real(wp), parameter, public :: close_enough = 1.0e-8_wp
-    ! A change of the load by more is a jump: patches met or parted.
-    ! Tuned [1]. Origin: chosen: far above close_enough.
-    real(wp), parameter :: jump = 1.0e-5_wp
-    ! Tuned [1]: bracket of ln(penetration) that is not halved any more. Origin: rounding.
-    real(wp), parameter :: narrow = 1.0e-14_wp
     ! The penetration tried first, over the square root of load times compliance: 0.1 mm at 100 kN
     ! on steel.
     ! Tuned [1]. Origin: 0.1 mm at 100 kN on steel.
     real(wp), parameter :: first_penetration = 0.2_wp
-    ! Exponents of load over penetration that a secant may have, and that of Hertz.
-    ! Tuned [1]. Origin: safeguard: plane contacts have less than one, edges more than two.
-    real(wp), parameter :: least_slope = 0.5_wp, most_slope = 6.0_wp
+    ! The exponent of load over penetration.
     ! Given: Hertz.
     real(wp), parameter :: hertz_slope = 1.5_wp
+    ! Tuned [1]: Exponents of a secant over it, or the reverse. Origin: safeguard: plane contacts
+    ! have less than one, edges more than two.
+    real(wp), parameter :: most_of_slope = 4.0_wp
 
     !> Gauss's rule of eight points on (0, 1).
     !> Given: Gauss
@@ -179,7 +175,8 @@ contains
         if (.not. again) return
         slope = hertz_slope
         if (search%steps > 1 .and. x /= search%x) &
-            slope = max(least_slope, min((y - search%y)/(x - search%x), most_slope))
+            slope = max(hertz_slope/most_of_slope, &
+                        min((y - search%y)/(x - search%x), hertz_slope*most_of_slope))
         guess = x - y/slope
         if (y < 0.0_wp) then
             search%low = max(search%low, x)
@@ -190,7 +187,8 @@ contains
             guess = search%low + 0.5_wp*(search%high - search%low)
         search%x = x
         search%y = y
-        again = search%high - search%low > narrow
+        ! Until no number lies between.
+        again = guess > search%low .and. guess < search%high
         if (again) search%penetration = exp(guess)
     end subroutine next_penetration
 
@@ -375,8 +373,8 @@ contains
         factor = 1.0_wp
         if (demand%by_load) then
             factor = demand%load/load
-            if (abs(sum(zones%load)/demand%load - 1.0_wp) &
-                > max(jump, 2.0_wp*tolerance)) &
+            ! The load jumps where patches meet or part.
+            if (abs(sum(zones%load)/demand%load - 1.0_wp) > 2.0_wp*tolerance) &
                 call add_limitation(status, st_under_resolved, 'no penetration has this load: ' // &
                                     'patches meet or part there, and the pressures were scaled')
         end if

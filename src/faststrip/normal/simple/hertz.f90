@@ -11,7 +11,7 @@
 module faststrip_normal_simple_hertz
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: most_steps
+    use faststrip_base_limits, only: beyond_all, largest_size, most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      count_text, add_words, message_length, st_bad_argument, &
                                      st_bad_load, st_bad_material, st_no_contact, &
@@ -38,13 +38,6 @@ module faststrip_normal_simple_hertz
         real(wp) :: load = 0.0_wp        !! the load it carries, N
     end type hertz_t
 
-    ! |ln(A/B)| beyond which nothing is promised: axes in a ratio of about 1e20.
-    ! Tuned [1]. Origin: safeguard, far from overflow.
-    real(wp), parameter :: largest_log_ratio = 90.0_wp
-    ! |ln| of the results (mm, MPa) beyond which they are refused, far from overflow.
-    ! Tuned [1]. Origin: safeguard, far from overflow.
-    real(wp), parameter :: largest_log_result = 200.0_wp
-
 contains
 
     !> Ellipse, penetration and pressure of a Hertz contact, relative error below 1e-13 for any
@@ -69,7 +62,7 @@ contains
         if (status%code /= 0) return
 
         ! The long axis lies along the smaller curvature; work with ratios above one.
-        if (abs(log(inv2r_y) - log(inv2r_x)) > largest_log_ratio) then
+        if (abs(log(inv2r_y) - log(inv2r_x)) > log(largest_size)) then
             call set_status(status, st_out_of_range, 'curvatures beyond all proportion: ' // &
                             trim(number_text(inv2r_x)) // ' and ' // trim(number_text(inv2r_y)) &
                             // ' 1/mm')
@@ -86,7 +79,7 @@ contains
         ! Given: Hertz
         log_long = (log(1.5_wp*d) + log(load) + log(compliance) &
                     - log(min(inv2r_x, inv2r_y)))/3.0_wp
-        if (abs(log_long) + axes + abs(log(load)) > largest_log_result) then
+        if (abs(log_long) + axes + abs(log(load)) > log(beyond_all)) then
             call set_status(status, st_out_of_range, 'a Hertz contact beyond all proportion: ' // &
                             'load ' // trim(number_text(load)) // ' N')
             return

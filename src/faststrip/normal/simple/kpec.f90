@@ -30,6 +30,7 @@
 !>   all. Two do not feel each other; where they meet the load jumps, see `finish_approximate`.
 module faststrip_normal_simple_kpec
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: largest_ratio
     use faststrip_base_status, only: status_t, is_error
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_simple_approximate, only: zone_t, check_approximate, finish_approximate, &
@@ -48,11 +49,8 @@ module faststrip_normal_simple_kpec
     ! The share of the penetration whose overlap gives the equivalent ellipse.
     ! Given: User guide for CONTACT.
     real(wp), parameter :: ellipse_share = 0.5_wp
-    ! Ratio of the curvatures of the equivalent ellipse.
-    ! Tuned [1]. Origin: safeguard, far from any contact's.
-    real(wp), parameter :: most_ratio = 1.0e10_wp
     ! The equivalent ellipse reaches beyond the lowest point by this factor.
-    ! Tuned [1]. Origin: as in CONTACT.
+    ! Given: KPEC of CONTACT.
     real(wp), parameter :: least_reach = 1.1_wp
     ! Steps out of the overlap in which the end of a patch is looked for, over its half-width.
     ! Tuned [1]. Origin: chosen.
@@ -162,7 +160,7 @@ contains
         half_width = 0.5_wp*(y_to - y_from)
         bend = ellipse_share*zone%depth/half_width**2
         call gap_at(curve, zone%y_low, h, inv2r)
-        bend = max(min(bend, most_ratio*inv2r), inv2r/most_ratio)
+        bend = max(min(bend, largest_ratio**2*inv2r), inv2r/largest_ratio**2)
         axes = abs(log(bend/inv2r))/1.5_wp ! Given: Hertz
         call hertz_shape(inv2r, bend, axes, k, s, found)
         ! A a^2 = (1/2 + s) D, B b^2 = (1/2 - s) D; s below 0 where the long axis lies across.

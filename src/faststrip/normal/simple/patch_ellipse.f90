@@ -2,7 +2,7 @@
 module faststrip_normal_simple_patch_ellipse
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: nothing
+    use faststrip_base_limits, only: largest_ratio, largest_size, nothing
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range
     use faststrip_normal_strips, only: contact_strips_t, strip_load
@@ -10,7 +10,6 @@ module faststrip_normal_simple_patch_ellipse
     private
 
     public :: patch_ellipse_t, patch_ellipse, patch_end, check_strips
-    public :: most_slender
 
     !> The ellipse of a patch's area and second moments, about the patch's centroid.
     type :: patch_ellipse_t
@@ -20,14 +19,6 @@ module faststrip_normal_simple_patch_ellipse
         real(wp) :: load = 0.0_wp !! load of the patch, N; zero: nothing to solve
     end type patch_ellipse_t
 
-    !> Virtual ellipses are kept between needles of these proportions.
-    !> Tuned [1]. Origin: safeguard.
-    real(wp), parameter :: most_slender = 1.0e6_wp
-
-    !> Strips are refused beyond this, mm and MPa.
-    !> Tuned [mm, MPa]. Origin: safeguard.
-    real(wp), parameter :: largest = 1.0e9_wp
-
 contains
 
     !> Refuse strips that no normal solution can have given.
@@ -35,7 +26,7 @@ contains
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(status_t), intent(out) :: status
             !! `st_bad_argument` (no strips; negative width, length or pressure), `st_not_finite`,
-            !! `st_out_of_range` (above 1e9 mm or MPa)
+            !! `st_out_of_range` (above 1e30 mm or MPa)
 
         integer :: i
 
@@ -52,7 +43,7 @@ contains
                 return
             end if
             if (max(abs(strips%y_left(i)), abs(strips%y_right(i)), strips%half_length(i), &
-                    strips%p0(i)) > largest) then
+                    strips%p0(i)) > largest_size) then
                 call set_status(status, st_out_of_range, 'a strip beyond all proportion at y = ' &
                                 // trim(number_text(strips%y_left(i))) // ' mm')
                 return
@@ -116,11 +107,11 @@ contains
             ! Given: moment of a width
             moment_y = moment_y + 2.0_wp*strips%half_length(i)*counted*(y*y + w*w/12.0_wp)
         end do
-        ! Products instead of a quotient of moments, which may both be zero.
-        if (moment_x >= most_slender**2*moment_y) then
-            ratio = most_slender
-        else if (moment_y >= most_slender**2*moment_x) then
-            ratio = 1.0_wp/most_slender
+        ! Not beyond needles; products instead of a quotient of moments, which may both be zero.
+        if (moment_x >= largest_ratio**2*moment_y) then
+            ratio = largest_ratio
+        else if (moment_y >= largest_ratio**2*moment_x) then
+            ratio = 1.0_wp/largest_ratio
         else
             ratio = sqrt(moment_x/moment_y)
         end if
