@@ -39,6 +39,7 @@
 module faststrip_tangential_fastsim
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: largest_size, smallest_size
     use faststrip_base_status, only: status_t, set_status, is_error, number_text, count_text, &
                                      st_bad_argument, st_bad_material, st_not_finite, &
                                      st_out_of_range
@@ -63,9 +64,6 @@ module faststrip_tangential_fastsim
     ! The most elements along x and strips across.
     ! Tuned [elements]. Origin: capacity.
     integer, parameter :: most_elements = 10000
-    ! Axes, loads, moduli and coefficients beyond this, or below its inverse, are refused.
-    ! Tuned [mm, N, MPa, 1]. Origin: safeguard.
-    real(wp), parameter :: largest = 1.0e20_wp
 
     !> What is not Kalker's standard choice.
     type :: fastsim_variant_t
@@ -168,8 +166,9 @@ contains
                             'creepage coefficients must be above 0, got ' // &
                             trim(number_text(c%c11)) // ', ' // trim(number_text(c%c22)) // &
                             ', ' // trim(number_text(c%c23)))
-        else if (max(hertz%a, hertz%b, abs(hertz%y), g, hertz%load, c%c11, c%c22, c%c23) > largest &
-                 .or. min(hertz%a, hertz%b, g, c%c11, c%c22, c%c23) < 1.0_wp/largest) then
+        else if (max(hertz%a, hertz%b, abs(hertz%y), g, hertz%load, c%c11, c%c22, c%c23) &
+                 > largest_size .or. &
+                 min(hertz%a, hertz%b, g, c%c11, c%c22, c%c23) < smallest_size) then
             call set_status(status, st_out_of_range, 'ellipse, load, shear modulus or creepage' // &
                             ' coefficients beyond all proportion')
         else

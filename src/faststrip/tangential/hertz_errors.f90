@@ -32,9 +32,11 @@ module faststrip_tangential_hertz_errors
     public :: add_hertz_errors
 
     ! Tuned [1]: Factors of Fx in the module's head. Origin: calibrated, see the module's head.
-    real(wp), parameter :: fx_factor = 1.7_wp, fx_any = 0.2_wp, fx_aside = 0.5_wp
-    ! Tuned [1]: Factors of Fy. Origin: calibrated, see the module's head.
-    real(wp), parameter :: fy_factor = 0.25_wp, fy_aside = 0.5_wp
+    real(wp), parameter :: fx_factor = 1.7_wp, fx_any = 0.2_wp
+    ! Tuned [1]: Factor of Fy. Origin: calibrated, see the module's head.
+    real(wp), parameter :: fy_factor = 0.25_wp
+    ! Tuned [1]: Part of q in both. Origin: calibrated, see the module's head.
+    real(wp), parameter :: aside_part = 0.5_wp
     ! Tuned [1]: Factors of Mz. Origin: calibrated, see the module's head.
     real(wp), parameter :: mz_factor = 0.65_wp, mz_narrow = 0.3_wp
     ! Tuned [1]: Linear force over mu N at half of the errors. Origin: calibrated, see the module's
@@ -63,9 +65,9 @@ contains
         beside = abs(misfit%odd)/misfit%rise
         wide = sqrt(hertz%b/hertz%a)
         share = norm2(u)/(norm2(u) + half_force)
-        fx = fx_factor*(beside + fx_any*any_shape + fx_aside*misfit%aside)*wide*share
+        fx = fx_factor*(beside + fx_any*any_shape + aside_part*misfit%aside)*wide*share
         errors%fx = errors%fx + fx
-        errors%fy = errors%fy + fy_factor*(any_shape + fy_aside*misfit%aside) &
+        errors%fy = errors%fy + fy_factor*(any_shape + aside_part*misfit%aside) &
                     *max(1.0_wp, wide)*share
         arm = abs(hertz%y)/sqrt(hertz%a*hertz%b)*fx
         errors%arm = errors%arm + arm

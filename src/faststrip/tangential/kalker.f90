@@ -9,6 +9,7 @@
 module faststrip_tangential_kalker
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: largest_ratio
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_material, st_not_finite, st_out_of_range
     use faststrip_tangential_kalker_table, only: n_ratios, n_poisson, table_poisson, &
@@ -25,10 +26,6 @@ module faststrip_tangential_kalker
         real(wp) :: c23 = 0.0_wp !! lateral force by spin
         real(wp) :: c33 = 0.0_wp !! moment by spin
     end type kalker_coefficients_t
-
-    !> Axes more slender than this, either way, are refused.
-    !> Tuned [1]. Origin: safeguard.
-    real(wp), parameter :: largest_ratio = 1.0e12_wp
 
     ! Given: ln 4.
     real(wp), parameter :: ln_4 = 1.386294361119890618834464242916353136_wp
@@ -59,7 +56,7 @@ contains
                             trim(number_text(nu)))
             return
         end if
-        if (a_over_b < 1.0_wp/largest_ratio .or. a_over_b > largest_ratio) then
+        if (a_over_b < 1.0_wp/largest_ratio**2 .or. a_over_b > largest_ratio**2) then
             call set_status(status, st_out_of_range, "a/b must be 1e-12 to 1e12, got " // &
                             trim(number_text(a_over_b)))
             return

@@ -65,9 +65,6 @@ module faststrip_tangential_laws
     integer, parameter :: law_shen_hedrick_elkins = 2 !! cubic saturation
     integer, parameter :: law_polach = 3              !! Polach's, with his spin
 
-    ! Tuned [1]: larger proportions of an ellipse count as this. Origin: safeguard: the exponential
-    ! is below rounding.
-    real(wp), parameter :: largest_ratio = 100.0_wp
 
 contains
 
@@ -221,7 +218,7 @@ contains
         if (s > 0.0_wp) stiffness = hypot(c%c11*(creepage%cksi/s), c%c22*(creepage%ceta/s))
         eps = over_force(0.25_wp*pi*g*ab*stiffness*s_c, force)
         pull = 2.0_wp/pi*force*(eps/(1.0_wp + eps*eps) + atan(eps))
-        k = 1.0_wp + 6.3_wp*(1.0_wp - exp(-min(ellipse%a/ellipse%b, largest_ratio))) ! Given: Polach
+        k = 1.0_wp + 6.3_wp*(1.0_wp - exp(-ellipse%a/ellipse%b)) ! Given: Polach
         ! Given: Polach
         eps_s = over_force(8.0_wp/3.0_wp*g*ellipse%b*sqrt(ab)*c%c23*abs(s_yc)/k, force)
         ! Given: Polach

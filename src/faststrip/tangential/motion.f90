@@ -2,7 +2,7 @@
 module faststrip_tangential_motion
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: largest_size
+    use faststrip_base_limits, only: largest_ratio, largest_size
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range
     use faststrip_base_creepage, only: creepage_t
@@ -11,10 +11,6 @@ module faststrip_tangential_motion
     private
 
     public :: check_motion, cut_creepage, check_ellipse, over_force
-
-    !> Friction coefficients and creepages (spin in rad/mm) beyond this are refused.
-    !> Tuned [1, rad/mm]. Origin: safeguard.
-    real(wp), parameter :: largest = 1.0e6_wp
 
 contains
 
@@ -40,7 +36,7 @@ contains
                             trim(number_text(creepage%ceta)) // ', ' // &
                             trim(number_text(creepage%cphi)) // ' rad/mm')
         else if (max(mu, abs(creepage%cksi), abs(creepage%ceta), abs(creepage%cphi)) &
-                 > largest) then
+                 > largest_ratio) then
             call set_status(status, st_out_of_range, &
                             'friction and creepages must be at most 1e6, got ' // &
                             trim(number_text(mu)) // '; ' // &
@@ -54,16 +50,17 @@ contains
     !> slides long before, and forces hang on their proportions alone.
     pure subroutine cut_creepage(creepage, cut, share)
         type(creepage_t), intent(in) :: creepage !! rail relative to wheel
-        type(creepage_t), intent(out) :: cut     !! of the same proportions, not beyond `largest`
+        type(creepage_t), intent(out) :: cut     !! of the same proportions, not beyond 1e6
         real(wp), intent(out) :: share           !! of it to the whole, 1 if nothing is cut
 
         cut = creepage
         share = 1.0_wp
         associate (most => max(abs(creepage%cksi), abs(creepage%ceta), abs(creepage%cphi)))
-            if (.not. (most > largest .and. most <= huge(most))) return
-            share = largest/most
-            cut = creepage_t(largest*(creepage%cksi/most), largest*(creepage%ceta/most), &
-                             largest*(creepage%cphi/most))
+            if (.not. (most > largest_ratio .and. most <= huge(most))) return
+            share = largest_ratio/most
+            cut = creepage_t(largest_ratio*(creepage%cksi/most), &
+                             largest_ratio*(creepage%ceta/most), &
+                             largest_ratio*(creepage%cphi/most))
         end associate
     end subroutine cut_creepage
 

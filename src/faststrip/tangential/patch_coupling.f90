@@ -14,6 +14,7 @@
 !> ahead. The moment of a tilt is another than that of the creepage in its place.
 module faststrip_tangential_patch_coupling
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: nothing, half_digits
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
     use faststrip_normal_strips, only: contact_strips_t, strip_load, last_of_patch
@@ -35,25 +36,18 @@ module faststrip_tangential_patch_coupling
     ! Tuned [lines]: Most lines of a part. Origin: measured on 182 contacts of several patches: as
     ! good as all strips; odd as the parts.
     integer, parameter :: most_lines = 7
-    ! Tuned [1]: Share of a part's load below which a line carries nothing. Origin: safeguard.
-    real(wp), parameter :: least_share = 1.0e-100_wp
-    ! Tuned [1]: Lines nearer than this over their half-lengths are none of two patches. Origin:
-    ! safeguard.
-    real(wp), parameter :: nearest = 1.0e-9_wp
     ! Given: three points of Gauss's rule from -1 to 1, weights of sum 1.
     real(wp), parameter :: node = sqrt(0.6_wp), weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
     ! Tuned [1]: Where slip counts ahead of the middle, and the centre of a traction behind it, over
-    ! the half-length, without slip. Origin: 336 contacts of several patches by TANG, five families
-    ! of `force-data`: 0.5, of strip theory, gives weak forces a third more than they lose.
+    ! the half-length, without slip; as long is the arm that the moment of a tilt lacks. Origin: 336
+    ! contacts of several patches by TANG, five families of `force-data`: 0.5, of strip theory,
+    ! gives weak forces a third more than they lose; of the arm it is better with spin, 0.3 without.
     real(wp), parameter :: centre = 0.35_wp
     ! Tuned [1]: How much farther ahead slip counts where all slides. Origin: the same contacts: 0.3
     ! and 0.5 are as good.
     real(wp), parameter :: farther = 0.4_wp
-    ! Tuned [1]: What the moment lacks, an arm over the half-length. Origin: the same contacts: 0.5
-    ! is better with spin, 0.3 without.
-    real(wp), parameter :: arm = 0.35_wp
-    ! Tuned [1]: Largest such moment over mu N a. Origin: the same contacts: without it some are far
-    ! off.
+    ! Tuned [1]: Largest moment that a tilt lacks, over mu N a. Origin: the same contacts: without
+    ! it some are far off.
     real(wp), parameter :: most_moment = 0.15_wp
 
     !> Forces of a part and what more counts of its tractions.
@@ -160,13 +154,13 @@ contains
             end associate
         end do
         load = sum(part%lines(:part%n)%share)
-        if (load <= 0.0_wp) then
+        if (load <= nothing) then
             part%n = 0
             return
         end if
         do k = 1, part%n
             associate (line => part%lines(k))
-                if (line%share <= least_share*load) then
+                if (line%share <= nothing) then
                     line = line_t()
                     cycle
                 end if
@@ -203,7 +197,8 @@ contains
                 mean_y = 0.0_wp
                 do i = 1, from%n
                     associate (line => from%lines(i), d => to%lines(j)%y - from%lines(i)%y)
-                        if (line%a <= 0.0_wp .or. abs(d) <= nearest*(line%a + a)) cycle
+                        ! Lines upon each other are none of two patches.
+                        if (line%a <= 0.0_wp .or. abs(d) <= half_digits*(line%a + a)) cycle
                         call displacements(line%a, a, d, nu, ux, uy)
                         front_x = front_x + line%share*ux
                         front_y = front_y + line%share*uy
@@ -319,7 +314,7 @@ contains
         moment = 0.0_wp
         most = most_moment*tractions%a*tractions%bound
         if (most <= 0.0_wp) return
-        moment = -arm*tractions%a*stiffness*ahead_of(tractions)*sticking(tractions)*tilt
+        moment = -centre*tractions%a*stiffness*ahead_of(tractions)*sticking(tractions)*tilt
         moment = moment/sqrt(1.0_wp + (moment/most)**2)
     end function induced_moment
 

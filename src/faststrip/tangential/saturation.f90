@@ -34,12 +34,8 @@ module faststrip_tangential_saturation
     ! Given: the series of atanh(v)/v in the square of v.
     real(wp), parameter :: series(0:6) = 1.0_wp/[1, 3, 5, 7, 9, 11, 13]
 
-    ! Slip at both ends of a cell whose sum is less than this lies within the pole, 1.
-    ! Tuned [1]. Origin: safeguard: creepages this small give no slip.
-    real(wp), parameter :: least_slip = 1.0e-280_wp
-
-    ! Below this square of v the series of atanh(v)/v has all its digits with seven terms.
-    ! Tuned [1]. Origin: chosen: the term left out is below 2e-9.
+    ! Below this square of v seven terms of the series of atanh(v)/v are enough.
+    ! Tuned [1]. Origin: chosen: the term left out is below 2e-10.
     real(wp), parameter :: series_bound = 0.06_wp
 
 contains
@@ -61,7 +57,8 @@ contains
         slip_x = creepage%cksi - y*creepage%cphi
         slip_y = creepage%ceta + half_length*edge*creepage%cphi
         slip = sqrt(slip_x**2 + slip_y**2)
-        both = max(slip(1:) + slip(:cells - 1), least_slip)
+        ! Without slip a cell lies within the pole.
+        both = max(slip(1:) + slip(:cells - 1), tiny(1.0_wp))
         v = (slip_y(1:) - slip_y(:cells - 1))/both
         across = (slip_y(1:) + slip_y(:cells - 1))/both
         do k = 1, cells

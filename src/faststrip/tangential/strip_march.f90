@@ -6,7 +6,7 @@ module faststrip_tangential_strip_march
     use faststrip_base_limits, only: nothing
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, falls, falling_share
-    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
     use faststrip_tangential_patch_law, only: patch_law_t
     use faststrip_tangential_saturation, only: saturate
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
@@ -36,13 +36,14 @@ module faststrip_tangential_strip_march
         real(wp) :: slid_static = 0.0_wp !! the same without the fall, N
     end type march_sums_t
 
-    ! Strips marched side by side, and what their number is rounded up to.
+    ! What the number of strips marched side by side is rounded up to.
     ! Tuned [strips]. Origin: chosen for the time: the width of vector units.
-    integer, parameter :: most_lanes = 16, lane_step = 2
+    integer, parameter :: lane_step = 2
+    ! Strips marched side by side: a patch of the usual ones at once.
+    integer, parameter :: most_lanes = usual_strips + modulo(-usual_strips, lane_step)
 
-    ! Added to what is divided by where it may be nothing.
-    ! Tuned [1]. Origin: safeguard: changes no digit.
-    real(wp), parameter :: least = 1.0e-280_wp
+    ! Added to what is divided by where it may be nothing; changes no digit.
+    real(wp), parameter :: least = tiny(1.0_wp)
 
     !> Strips side by side.
     type :: block_t

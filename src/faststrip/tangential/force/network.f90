@@ -2,6 +2,7 @@
 !> of a patch that rolls, and how a network of two layers is evaluated.
 module faststrip_tangential_force_network
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: nothing
     use faststrip_tangential_patch_shape, only: patch_shape_t, n_even
     use faststrip_tangential_force_weights, only: &
         n_ellipse_inputs, n_shape_inputs, even_scale, odd_scale, largest_log_ratio, &
@@ -24,9 +25,8 @@ module faststrip_tangential_force_network
         integer :: points = 1              !! of the march, along a strip
     end type rolling_state_t
 
-    ! Where nothing moves there is no direction.
-    ! Tuned [1]. Origin: safeguard: changes no digit.
-    real(wp), parameter :: least = 1.0e-200_wp
+    ! Where nothing moves there is no direction; changes no digit.
+    real(wp), parameter :: least = nothing**2
     ! Tuned [1]: Linear force over mu N above which the inputs tell strong from stronger creepage.
     ! Origin: chosen.
     real(wp), parameter :: strong = 10.0_wp
@@ -35,9 +35,9 @@ module faststrip_tangential_force_network
     ! Tuned [1]: What counts, squared, beside the distances of the pole of spin from the axes.
     ! Origin: chosen: the factors may change over a seventh of the ellipse.
     real(wp), parameter :: near = 0.02_wp
-    ! Tuned [1]: Half the linear force over mu N from where a patch without spin slides whole.
-    ! Origin: chosen: Carter's contact slides whole from 2 on.
-    real(wp), parameter :: half_translation = 2.0_wp
+    ! Linear force over mu N from where a patch without spin slides whole.
+    ! Given: Carter's contact slides whole from 2 on.
+    real(wp), parameter :: whole_slip = 2.0_wp
     ! Tuned [1]: Slip by spin over that of the centre up to where a patch counts as not spinning;
     ! nothing is left of this at twice as much. Origin: chosen.
     real(wp), parameter :: little_spin = 0.05_wp
@@ -79,7 +79,7 @@ contains
             spin = 0.25_wp*c(3)**2*(state%a**2 + state%b**2)
         end associate
         share = (1.0_wp - state%sliding) &
-                *(1.0_wp - (1.0_wp - fade(norm2(state%linear)/half_translation)) &
+                *(1.0_wp - (1.0_wp - fade(norm2(state%linear)/whole_slip)) &
                   *fade(sqrt(spin/slip)/little_spin))
     end function share_rolling
 
