@@ -14,6 +14,7 @@ module faststrip_kalker_convolution
     use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_double_complex, &
                                            c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: half_digits
     use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument, &
                                      st_workspace_too_small
     use faststrip_kalker_fftw, only: fftw_estimate, fftw_forward, fftw_backward, fftw_alloc_real, &
@@ -32,12 +33,8 @@ module faststrip_kalker_convolution
     !> Given: numbers of kinds.
     integer, parameter :: even = 1, odd = -1
 
-    !> Most points of a doubled grid along one axis.
-    !> Tuned [points]. Origin: capacity: memory of a transform.
-    integer, parameter :: largest_size = 2**15
-    ! Tuned [1]: transform of a kernel over its largest below which it counts as this in the
-    ! inverse. Origin: safeguard; it only preconditions.
-    real(wp), parameter :: least_transform = 1.0e-6_wp
+    ! Points of a grid, so that integers count those of the doubled one, with good sizes.
+    integer, parameter :: most_points = shiftr(huge(1), 3)
 
     !> Room, plans, kernels and transformed sources for one grid. Owned by the caller, one per
     !> thread, never copied by assignment; given back by `release_convolution` or when it goes out
@@ -69,7 +66,7 @@ contains
     !> case the kernels stay. Otherwise kernels are lost and have to be set.
     subroutine reserve_convolution(convolution, nx, ny, n_kernels, n_sources, status)
         type(convolution_t), intent(inout) :: convolution !! ready for `set_kernel`
-        integer, intent(in) :: nx         !! points along the first axis, 1 to 16384
+        integer, intent(in) :: nx         !! points along the first axis, >= 1; 2^28 with the second
         integer, intent(in) :: ny         !! along the second
         integer, intent(in) :: n_kernels  !! kernels kept at a time, >= 1
         integer, intent(in) :: n_sources  !! sources transformed at a time, >= 1
@@ -78,9 +75,9 @@ contains
         integer :: half, i
 
         call clear_status(status)
-        if (min(nx, ny, n_kernels, n_sources) < 1 .or. max(nx, ny) > largest_size/2) then
-            call set_status(status, st_bad_argument, &
-                            'a convolution needs 1 to 16384 points each way, a kernel, a source')
+        if (min(nx, ny, n_kernels, n_sources) < 1 .or. real(nx, wp)*ny > most_points) then
+            call set_status(status, st_bad_argument, 'a convolution needs a point each way and ' &
+                            //'at most 2^28 in all, a kernel, a source')
             return
         end if
         if (convolution%nx == nx .and. convolution%ny == ny .and. &
@@ -264,8 +261,8 @@ contains
     end subroutine set_kernel
 
     !> Make kernel k the inverse of another one on the doubled, periodic grid: a preconditioner.
-    !> Only for even kernels with a positive transform; where it is below 1e-6 of the largest that
-    !> is taken instead.
+    !> Only for even kernels with a positive transform; where that is but rounding of the largest
+    !> that much is taken instead.
     subroutine set_inverse_kernel(convolution, k, other, status)
         type(convolution_t), intent(inout) :: convolution !! reserved
         integer, intent(in) :: k              !! which kernel, 1 to `n_kernels`
@@ -281,7 +278,7 @@ contains
             return
         end if
         scale = (real(convolution%mx, wp)*convolution%my)**2
-        floor = least_transform*maxval(convolution%kernel(:, :, other))
+        floor = half_digits*maxval(convolution%kernel(:, :, other))
         if (convolution%is_imaginary(other) .or. floor <= tiny(floor)*scale) then
             call set_status(status, st_bad_argument, 'a kernel without a positive transform')
             return

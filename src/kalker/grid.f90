@@ -1,6 +1,7 @@
 !> The potential contact area: a grid of equal rectangles that holds the patches.
 module faststrip_kalker_grid
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: half_digits
     implicit none
     private
 
@@ -83,12 +84,8 @@ contains
             real(wp), intent(in) :: distance
             integer, intent(in) :: n
 
-            ! Tuned [elements]: Distance below which two rows are one. Origin: safeguard: far above
-            ! rounding.
-            real(wp), parameter :: coincide = 1.0e-6_wp
-
             place = min(max(distance + 1.0_wp, -1.0_wp), n + 2.0_wp)
-            if (abs(place - anint(place)) < coincide) place = anint(place)
+            if (abs(place - anint(place)) < half_digits) place = anint(place)
         end function place
 
         pure real(wp) function squared(k, l)

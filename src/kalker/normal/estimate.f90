@@ -24,6 +24,7 @@ module faststrip_kalker_normal_estimate
     use faststrip_normal_estimate_unresolved, only: unresolved_pressure
     use faststrip_kalker_border, only: border_area
     use faststrip_kalker_grid, only: contact_grid_t, element_y
+    use faststrip_kalker_normal_options, only: fewest_elements
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
     implicit none
     private
@@ -35,9 +36,6 @@ module faststrip_kalker_normal_estimate
     real(wp), parameter :: peak_share = 0.5_wp, border_share = 0.35_wp
     ! Tuned [1]: Of the penetration, over that of pmax. Origin: calibrated, see the module's head.
     real(wp), parameter :: penetration_share = 0.1_wp
-    ! Tuned [rows]: Of elements across a patch up to which it is few. Origin: chosen: more resolve
-    ! a pressure as an ellipse.
-    integer, parameter :: few_rows = 6
 
 contains
 
@@ -114,7 +112,7 @@ contains
                     around = neighbours(grid, i, j)
                     if (any(around > peak)) cycle
                     call find_rows(grid, i, j, first, last)
-                    if (last - first >= few_rows) cycle
+                    if (last - first >= fewest_elements) cycle
                     largest = max(largest, peak + peak_share*(peak - minval(around)), &
                                   line_pressure(curve, compliance, grid, i, first, last))
                 end associate

@@ -2,6 +2,7 @@
 module faststrip_kalker_normal_grid
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: most_halvings, too_large
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_convergence, st_out_of_range
     use faststrip_influence_rectangle, only: rectangle_potential
@@ -9,7 +10,7 @@ module faststrip_kalker_normal_grid
                                             release_convolution, set_kernel, set_inverse_kernel, &
                                             even
     use faststrip_kalker_grid, only: contact_grid_t, element_x, element_y, count_patches
-    use faststrip_kalker_normal_options, only: norm_options_t, largest
+    use faststrip_kalker_normal_options, only: norm_options_t
     use faststrip_kalker_normal_solver, only: minimiser_t, size_minimiser, task_t, minimise, &
                                               minimised_t, kernel_influence, kernel_inverse
     use faststrip_normal_types, only: normal_result_t, demand_t
@@ -62,7 +63,7 @@ contains
         task%preconditioned = options%preconditioned
         if (demand%by_load) then
             ! Logarithms, as the product may overflow.
-            if (abs(log(demand%load) + log(compliance) - log(dy)) > log(largest)) then
+            if (abs(log(demand%load) + log(compliance) - log(dy)) > log(too_large)) then
                 call set_status(status, st_out_of_range, 'a contact beyond all proportion: load ' &
                                 //trim(number_text(demand%load))//' N')
                 return
@@ -157,14 +158,10 @@ contains
         real(wp), intent(in) :: compliance          !! H of eq. (4), 1/MPa
         type(contact_grid_t), intent(inout) :: grid !! with its heights
 
-        ! Tuned [1]: Share of the penetration at which heights overlap. Origin: virtual penetration
-        ! of a Hertz contact (Piotrowski and Kik).
-        ! Tuned [1]: Share of the penetration at which heights overlap. Origin: virtual penetration
-        ! of a Hertz contact (Piotrowski and Kik).
+        ! Share of the penetration at which heights overlap.
+        ! Given: Kik and Piotrowski 1996.
         real(wp), parameter :: share = 0.55_wp
         real(wp) :: lowest, low, high, depth, radius
-        ! Tuned [halvings]: of the penetration sought. Origin: chosen: far below its own error.
-        integer, parameter :: max_halvings = 40
         integer :: i
 
         lowest = minval(grid%height)
@@ -173,7 +170,7 @@ contains
             ! As if one element carried it all.
             ! Given: a punch of that area.
             high = 0.75_wp*pi*compliance*(demand%load/sqrt(grid%dx*grid%dy/pi))
-            do i = 1, max_halvings
+            do i = 1, most_halvings
                 depth = 0.5_wp*(low + high)
                 radius = sqrt(max(1, count(grid%height - lowest < share*depth)) &
                               *(grid%dx*grid%dy/pi))

@@ -14,8 +14,9 @@ module faststrip_kalker_normal
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, add_limitation, is_error, number_text, &
                                      st_bad_argument, st_edge_of_data, st_no_contact, &
-                                     st_no_convergence, st_not_finite, st_out_of_range, &
+                                     st_not_finite, st_out_of_range, &
                                      st_overlap_left, st_workspace_too_small
+    use faststrip_contact_methods, only: usual_side
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, &
                                             copy_gap_curve
@@ -25,11 +26,11 @@ module faststrip_kalker_normal
                                             solve_on_grid, guess_on_heights, take_figures
     use faststrip_kalker_normal_options, only: norm_options_t, norm_most_elements, check_options, &
                                                check_numbers, check_load, check_heights, &
-                                               fitting_side
+                                               fitting_side, fewest_elements
     use faststrip_kalker_normal_position, only: extent_t, guess_extent, extent_of_strips, &
                                                 extent_of_grid, position_grid, take_missing_rows, &
                                                 columns_suffice, reaches_end_of_data, &
-                                                guess_pressures
+                                                guess_pressures, enlargement
     use faststrip_kalker_normal_rows, only: pressures_of_strips
     use faststrip_kalker_normal_solver, only: task_t, minimised_t
     use faststrip_normal_estimate_errors, only: normal_errors_t, richardson_estimate
@@ -44,23 +45,12 @@ module faststrip_kalker_normal
     public :: norm_solve, norm_solve_penetration, norm_solve_demand, norm_solve_heights
     public :: norm_most_elements, norm_watch
 
-    ! Tuned [positions]. Origin: safeguard.
-    integer, parameter :: max_positions = 12      ! of the grid, for one spacing
-    ! Of the half-length, when columns are missing, at first and in the end.
-    ! Tuned [1]. Origin: chosen.
-    real(wp), parameter :: enlargement = 1.3_wp, late_enlargement = 2.0_wp
-    ! Tuned [levels]. Origin: safeguard.
-    integer, parameter :: max_levels = 12         ! of spacing, for a target
-    ! Tuned [elements]. Origin: chosen: as few as show a patch.
-    integer, parameter :: first_elements = 6      ! across the shorter half of the first level
     ! Tuned [1]: Tolerance of coarser levels. Origin: far below what the next level changes.
     real(wp), parameter :: coarse_tolerance = 1.0e-6_wp
     ! Height of the gap's lowest place below the elements' middles, over the penetration. A parabola
     ! has less with three rows of elements; what is more is a needle, as of a fill value.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: tolerated_miss = 0.1_wp
-    ! Tuned [mm]. Origin: the reference's grid.
-    real(wp), parameter :: spacing_unit = 0.1_wp  ! mm; with a target, spacings are this by 2^k
 
     !> Everything a solution needs besides its input, and the pressures it leaves; owned by the
     !> caller, one per thread. Arrays grow with the grid, before the iteration.
@@ -321,9 +311,11 @@ contains
         spacing%dx = levels*spacing%dx
         spacing%dy = levels*spacing%dy
         if (options%error_target > 0.0_wp) then
-            levels = max_levels
-            spacing%dx = spacing_unit*2.0_wp**floor(log(min(extent%half_length, extent%half_width) &
-                                                        /(first_elements*spacing_unit))/log(2.0_wp))
+            levels = huge(levels) ! more elements than allowed come first
+            ! Spacings are the usual ones by powers of 2.
+            spacing%dx = usual_side*2.0_wp**floor( &
+                log(min(extent%half_length, extent%half_width)/(fewest_elements*usual_side)) &
+                /log(2.0_wp))
             spacing%dy = spacing%dx
         end if
         do level = 1, levels
@@ -393,7 +385,8 @@ contains
         end do
     end subroutine name_what_is_left
 
-    !> Solve on grids of one spacing, each larger than the one before, until it holds the contact.
+    !> Solve on grids of one spacing, each larger than the one before, until it holds the contact or
+    !> would have more elements than allowed.
     subroutine solve_spacing(workspace, problem, spacing, extent, result, status, strips, watch)
         type(norm_workspace_t), intent(inout) :: workspace
         type(problem_t), intent(in) :: problem
@@ -406,14 +399,14 @@ contains
 
         type(task_t) :: task
         type(minimised_t) :: found
-        integer :: k
-        logical :: is_missing
+        logical :: is_first, is_missing
 
         call set_task(problem%demand, workspace%curve%h_lowest, problem%compliance, spacing%dy, &
                       problem%options, task, status)
         if (is_error(status)) return
         task%tolerance = spacing%tolerance
-        do k = 1, max_positions
+        is_first = .true.
+        do
             call position_grid(workspace%curve, extent, spacing%dx, spacing%dy, &
                                problem%options%most_elements, workspace%grid, status)
             if (is_error(status)) return
@@ -423,7 +416,7 @@ contains
                 return
             end if
             if (present(watch)) call watch(workspace%grid)
-            if (k == 1 .and. spacing%from_strips) then
+            if (is_first .and. spacing%from_strips) then
                 call pressures_of_strips(strips, workspace%grid)
             else if (workspace%last%nx > 0) then
                 call take_pressures(workspace%grid, workspace%last)
@@ -437,16 +430,15 @@ contains
                                    found%approach, extent, is_missing)
             if (.not. columns_suffice(workspace%grid)) then
                 is_missing = .true.
-                extent%half_length = max(extent%half_length, spacing%dx) &
-                                     *merge(enlargement, late_enlargement, k <= 3)
+                extent%half_length = enlargement*max(extent%half_length, spacing%dx)
             end if
             if (.not. is_missing) then
                 call finish(workspace, problem%compliance, found, result)
                 return
             end if
             call keep(workspace)
+            is_first = .false.
         end do
-        call set_status(status, st_no_convergence, 'no grid was found that holds the contact')
     end subroutine solve_spacing
 
     !> Solve on the workspace's grid.

@@ -2,28 +2,28 @@
 module faststrip_kalker_normal_options
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: nothing, too_large
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_bad_load, st_no_contact, st_not_finite, &
                                      st_out_of_range
     use faststrip_base_material, only: check_compliance
     use faststrip_normal_types, only: demand_t
     use faststrip_contact_methods, only: usual_side
+    use faststrip_kalker_normal_solver, only: usual_tolerance, most_iterations
     implicit none
     private
 
     public :: norm_options_t, norm_most_elements
-    public :: check_options, check_numbers, check_load, check_heights, fitting_side, largest
+    public :: check_options, check_numbers, check_load, check_heights, fitting_side
+    public :: fewest_elements
 
     !> Most elements of a grid, in contact or not, unless the options say otherwise.
     !> Tuned [elements]. Origin: capacity.
     integer, parameter :: norm_most_elements = 4000000
 
-    ! Elements that half a contact holds or it is small, and those of half a small one.
-    ! Tuned [1]. Origin: chosen: pmax within 1 %; twice as many for the area, which is counted.
-    real(wp), parameter :: fewest = 6.0_wp, usual = 12.0_wp
-    ! Sizes beyond which nothing is promised.
-    ! Tuned [mm, MPa]. Origin: safeguard.
-    real(wp), parameter :: smallest = 1.0e-60_wp, largest = 1.0e60_wp
+    !> Fewest elements across half a contact, or all of a patch, that show its pressures.
+    !> Tuned [elements]. Origin: chosen: pmax within 1 %.
+    integer, parameter :: fewest_elements = 6
 
     !> What the user chooses.
     type :: norm_options_t
@@ -35,10 +35,8 @@ module faststrip_kalker_normal_options
                                           !! pressure; the sides are chosen if it is positive
         logical :: two_levels = .true.    !! solve with sides twice as long before: a better start
                                           !! and an estimate of the errors
-        ! Tuned [1]. Origin: far below the errors of any grid.
-        real(wp) :: tolerance = 1.0e-9_wp !! largest |gap| in contact over the approach
-        ! Tuned [iterations]. Origin: safeguard.
-        integer :: max_iterations = 300   !! of conjugate gradients on one grid
+        real(wp) :: tolerance = usual_tolerance !! largest |gap| in contact over the approach
+        integer :: max_iterations = most_iterations !! of conjugate gradients on one grid
         logical :: warm_start = .false.   !! from the last solution of this workspace, if any
         logical :: preconditioned = .true. !! or plain conjugate gradients?
         integer :: most_elements = norm_most_elements !! of a grid
@@ -46,12 +44,13 @@ module faststrip_kalker_normal_options
 
 contains
 
-    !> The side that was meant, if half the contact holds six of it; else a twelfth of that.
+    !> The side that was meant, if half the contact holds six of it; else a twelfth of that, for
+    !> the area, which is counted.
     pure real(wp) function fitting_side(side, half)
         real(wp), intent(in) :: side !! that was meant, mm
         real(wp), intent(in) :: half !! half the contact's length or width, mm
 
-        fitting_side = merge(side, half/usual, half >= fewest*side)
+        fitting_side = merge(side, half/(2*fewest_elements), half >= fewest_elements*side)
     end function fitting_side
 
     !> Refuse a compliance, sides, an error target or a tolerance that cannot be.
@@ -70,8 +69,8 @@ contains
             call set_status(status, st_bad_argument, 'sides of the elements must be above 0, got ' &
                             //trim(number_text(options%dx))//' by ' &
                             //trim(number_text(options%dy))//' mm')
-        else if (min(options%dx, options%dy) < smallest &
-                 .or. max(options%dx, options%dy) > largest) then
+        else if (min(options%dx, options%dy) < nothing &
+                 .or. max(options%dx, options%dy) > too_large) then
             call set_status(status, st_out_of_range, 'elements must be at most 1e60 mm long')
         else if (options%error_target < 0.0_wp) then
             call set_status(status, st_bad_argument, 'the error target must not be negative, got ' &
@@ -88,7 +87,7 @@ contains
 
         call check_compliance(compliance, status)
         if (is_error(status)) return
-        if (compliance < smallest .or. compliance > largest) then
+        if (compliance < nothing .or. compliance > too_large) then
             call set_status(status, st_out_of_range, 'the compliance is beyond all proportion: ' &
                             //number_text(compliance))
         else if (.not. ieee_is_finite(options%tolerance)) then
@@ -116,7 +115,7 @@ contains
         else if (load <= 0.0_wp) then
             call set_status(status, st_bad_load, &
                             'the load must be above 0, got '//trim(number_text(load))//' N')
-        else if (load < smallest .or. load > largest) then
+        else if (load < nothing .or. load > too_large) then
             call set_status(status, st_out_of_range, 'the load is beyond all proportion: ' &
                             //trim(number_text(load))//' N')
         end if
@@ -157,7 +156,7 @@ contains
                             //trim(number_text(minval(height)))//' mm')
             return
         end if
-        if (maxval(abs(height)) > largest) &
+        if (maxval(abs(height)) > too_large) &
             call set_status(status, st_out_of_range, 'a height of the grid is beyond 1e60 mm')
     end subroutine check_heights
 end module faststrip_kalker_normal_options

@@ -8,6 +8,7 @@
 !> outermost.
 module faststrip_kalker_normal_position
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: largest_ratio, half_digits
     use faststrip_base_text, only: integer_text
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_contact, st_out_of_range
@@ -24,6 +25,7 @@ module faststrip_kalker_normal_position
 
     public :: extent_t, guess_extent, extent_of_strips, extent_of_grid, position_grid
     public :: take_missing_rows, columns_suffice, reaches_end_of_data, guess_pressures
+    public :: enlargement
 
     !> What a grid has to hold.
     type :: extent_t
@@ -34,20 +36,17 @@ module faststrip_kalker_normal_position
         real(wp) :: level = 0.0_wp       !! height of the gap at the ends, from the lowest, mm
     end type extent_t
 
-    ! Tuned [1]. Origin: chosen.
-    real(wp), parameter :: guess_margin = 1.3_wp   ! of the level, for rows of a guess
-    ! Tuned [1]. Origin: chosen.
-    real(wp), parameter :: guess_length = 1.1_wp ! of the half-length, for columns of a guess
+    !> By how much a grid is larger than what it was to hold: of the level for rows of a guess, of
+    !> the half-length where columns are missing.
+    !> Tuned [1]. Origin: chosen.
+    real(wp), parameter :: enlargement = 1.3_wp
     ! Tuned [1]. Origin: chosen: errors of the area of strips.
     real(wp), parameter :: strips_margin = 0.02_wp ! of the extent of a strip solution
+    ! Tuned [1]. Origin: chosen.
+    real(wp), parameter :: guess_length = 1.1_wp ! of the half-length, for columns of a guess
     ! A row is missing if its gap is below this of the approach: strips are not exact.
     ! Tuned [1]. Origin: chosen: errors of the penetration of strips.
     real(wp), parameter :: doubtful = 1.0e-3_wp
-    ! Tuned [rows]. Origin: safeguard: numbers of rows fit in integers.
-    real(wp), parameter :: most_rows = 1.0e6_wp  ! along the gap's data
-    ! Tuned [1]: places beyond this many times the most rows are refused. Origin: safeguard: numbers
-    ! of rows fit in integers.
-    real(wp), parameter :: farthest = 1.0e3_wp
 
 contains
 
@@ -70,7 +69,7 @@ contains
             return
         end if
         extent%level = patches%at(1)%seed_level
-        call level_intervals(curve, curve%h_lowest + guess_margin*extent%level, low, high, n)
+        call level_intervals(curve, curve%h_lowest + enlargement*extent%level, low, high, n)
         extent%y_from = low(1)
         extent%y_to = high(n)
         extent%half_width = 0.5_wp*sum(patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from)
@@ -171,8 +170,6 @@ contains
         integer, intent(out) :: from, to
         type(status_t), intent(out) :: status
 
-        ! Tuned [1]: By how much a row may be beside its place. Origin: safeguard: above rounding.
-        real(wp), parameter :: slack = 1.0e-6_wp ! of a side
         real(wp) :: low, high
 
         call clear_status(status)
@@ -180,13 +177,14 @@ contains
         to = -1
         low = curve%y(1)/dy
         high = curve%y(curve%n)/dy
-        if (high - low > most_rows .or. max(abs(low), abs(high)) > farthest*most_rows) then
+        ! Numbers of rows have to fit in integers.
+        if (high - low > largest_ratio .or. max(abs(low), abs(high)) > 0.5_wp*huge(1)) then
             call set_status(status, st_out_of_range, 'elements of '//trim(number_text(dy)) &
                             //' mm are too short for the gap''s points')
             return
         end if
-        from = ceiling(low - 0.5_wp - slack)
-        to = floor(high - 0.5_wp + slack)
+        from = ceiling(low - 0.5_wp - half_digits)
+        to = floor(high - 0.5_wp + half_digits)
         if (to < from) &
             call set_status(status, st_out_of_range, 'elements of '//trim(number_text(dy)) &
                             //' mm are longer than the gap')
