@@ -4,9 +4,10 @@
 !> NORM and TANG in turn (Panagiotopoulos' iteration, as CONTACT has it): tractions for the
 !> pressures, with what these do as rigid slip; pressures for the gap, with what the tractions do as
 !> heights; until the pressures stay. Each turn leaves about K mu of a change, K of
-!> `faststrip_influence_rectangle`.
+!> `faststrip_influence_rectangle`: a rigid body on rubber takes eight.
 module faststrip_kalker_dissimilar
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, is_error, number_text, &
                                      st_no_convergence
     use faststrip_base_material, only: material_t, normal_compliance, combined_shear_modulus, &
@@ -24,7 +25,7 @@ module faststrip_kalker_dissimilar
     use faststrip_kalker_normal, only: norm_workspace_t, norm_options_t, norm_solve_heights, &
                                        release_norm
     use faststrip_kalker_tangential, only: tang_workspace_t, tang_options_t, tang_solve, &
-                                           release_tang, take_tractions, tang_history_t
+                                           release_tang, take_tractions, tang_history_t, settled
     implicit none
     private
 
@@ -32,11 +33,6 @@ module faststrip_kalker_dissimilar
 
     ! Given: numbers of kinds.
     integer, parameter :: kernel_zx = 1, kernel_zy = 2
-    ! Tuned [1]: Change of the pressures, over all of them, at which they stay. Origin: far below
-    ! the errors of any grid.
-    real(wp), parameter :: settled = 1.0e-5_wp
-    ! Tuned [turns]: Most of them. Origin: safeguard; a rigid body on rubber takes eight.
-    integer, parameter :: most_turns = 30
 
     !> What is to be solved on a grid.
     type :: dissimilar_problem_t
@@ -101,7 +97,7 @@ contains
                             problem%creepage, tang_options, tangential, status, field, &
                             problem%friction, history)
             if (is_error(status) .or. change <= settled) return
-            if (workspace%turns >= most_turns) then
+            if (workspace%turns >= most_steps) then
                 call set_status(status, st_no_convergence, 'pressures and tractions of ' // &
                                 'dissimilar materials do not converge: the pressures change ' &
                                 // 'by ' // number_text(change))

@@ -2,7 +2,7 @@
 module faststrip_kalker_tangential_checks
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: largest_size, smallest_size
+    use faststrip_base_limits, only: largest_ratio, largest_size, smallest_size
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_contact, st_not_finite, &
                                      st_out_of_range
@@ -12,9 +12,6 @@ module faststrip_kalker_tangential_checks
     private
 
     public :: check_bodies, check_grid
-
-    ! Tuned [1]: sides of elements beyond this proportion are refused. Origin: safeguard.
-    real(wp), parameter :: largest_ratio = 1.0e6_wp
 
 contains
 

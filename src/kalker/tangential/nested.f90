@@ -11,6 +11,7 @@ module faststrip_kalker_tangential_nested
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_kalker_grid, only: contact_grid_t, size_grid
+    use faststrip_kalker_normal_options, only: fewest_elements
     use faststrip_kalker_tangential_newton, only: newton_t, size_newton, solve_newton
     use faststrip_kalker_tangential_problem, only: problem_t, make_problem, release_problem
     implicit none
@@ -20,10 +21,7 @@ module faststrip_kalker_tangential_nested
 
     !> Fewest elements in contact of a grid for which a coarser one is solved first.
     !> Tuned [elements]. Origin: chosen for the time.
-    integer, parameter :: fewest_elements = 600
-    !> Fewest rows, and columns, of it.
-    !> Tuned [elements]. Origin: safeguard: few rows have no coarser grid.
-    integer, parameter :: fewest_across = 12
+    integer, parameter :: fewest_in_contact = 600
     !> Tolerance of the coarser grids.
     !> Tuned [1]. Origin: chosen for the time; two grids differ by more.
     real(wp), parameter :: coarse_tolerance = 3.0e-3_wp
@@ -101,7 +99,8 @@ contains
         pure logical function is_fine(finer)
             type(problem_t), intent(in) :: finer
 
-            is_fine = finer%n >= fewest_elements .and. min(finer%nx, finer%ny) >= fewest_across
+            is_fine = finer%n >= fewest_in_contact .and. &
+                      min(finer%nx, finer%ny) >= 2*fewest_elements
         end function is_fine
 
         !> The next grid and its problem; `depth` counts those that were made.

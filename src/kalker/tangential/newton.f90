@@ -18,15 +18,15 @@ module faststrip_kalker_tangential_newton
     implicit none
     private
 
-    public :: newton_t, size_newton, solve_newton, most_vectors
+    public :: newton_t, size_newton, solve_newton, most_vectors, free_steps
 
-    !> Most vectors GMRES keeps before it starts again.
+    !> Most vectors of GMRES; Newton's next step goes on from there.
     !> Tuned [vectors]. Origin: capacity.
     integer, parameter :: most_vectors = 60
-    ! Tuned [restarts]: Most of them. Origin: safeguard.
-    integer, parameter :: most_restarts = 4
-    ! Tuned [steps]. Origin: chosen against nodes that swing.
-    integer, parameter :: free_steps = 5      ! before the carried nodes are kept
+    !> Steps before the carried nodes are kept; passes of a falling bound that take all of the new
+    !> one, later ones the mean with the last.
+    !> Tuned [steps]. Origin: chosen against nodes, and elements, that swing.
+    integer, parameter :: free_steps = 6
     ! Tuned [halvings]: Most halvings of a step. Origin: chosen.
     integer, parameter :: most_halvings = 5
     ! Tuned [1]. Origin: chosen for the time of all steps together.
@@ -312,7 +312,7 @@ contains
         end do
     end subroutine multiply
 
-    !> Solve for `newton%step` by GMRES, preconditioned from the right, restarted.
+    !> Solve for `newton%step` by GMRES, preconditioned from the right.
     subroutine gmres(newton, problem, m, demand)
         type(newton_t), intent(inout) :: newton
         type(problem_t), intent(inout) :: problem
@@ -320,66 +320,55 @@ contains
         real(wp), intent(in) :: demand     !! residual over the right-hand side
 
         real(wp) :: h(most_vectors + 1, most_vectors), cosine(most_vectors), sine(most_vectors)
-        real(wp) :: rest(most_vectors + 1), beta, first_beta, t
-        integer :: restart, j, i, last
+        real(wp) :: rest(most_vectors + 1), beta, t
+        integer :: j, i, last
 
         newton%step(:m) = 0.0_wp
-        newton%basis(:m, 1) = newton%right(:m)
-        first_beta = norm_of(newton%right(:m))
-        do restart = 0, most_restarts
-            beta = norm_of(newton%basis(:m, 1))
-            if (beta <= demand*first_beta) return
-            newton%basis(:m, 1) = newton%basis(:m, 1)/beta
-            rest = 0.0_wp
-            rest(1) = beta
-            last = 0
-            do j = 1, most_vectors
-                newton%iterations = newton%iterations + 1
-                newton%work(:m) = newton%basis(:m, j)
-                call solve_rows(newton%rows, problem, newton%unknown, newton%tangent, &
-                                newton%is_carried, newton%work(:m))
-                call multiply(newton, problem, newton%work(:m), newton%basis(:m, j + 1))
-                do i = 1, j
-                    h(i, j) = product_of(newton%basis(:m, i), newton%basis(:m, j + 1))
-                    newton%basis(:m, j + 1) = newton%basis(:m, j + 1) - h(i, j)*newton%basis(:m, i)
-                end do
-                h(j + 1, j) = norm_of(newton%basis(:m, j + 1))
-                last = j
-                if (h(j + 1, j) > 0.0_wp) &
-                    newton%basis(:m, j + 1) = newton%basis(:m, j + 1)/h(j + 1, j)
-                do i = 1, j - 1
-                    t = cosine(i)*h(i, j) + sine(i)*h(i + 1, j)
-                    h(i + 1, j) = cosine(i)*h(i + 1, j) - sine(i)*h(i, j)
-                    h(i, j) = t
-                end do
-                t = hypot(h(j, j), h(j + 1, j))
-                if (t <= 0.0_wp) then
-                    last = j - 1
-                    exit
-                end if
-                cosine(j) = h(j, j)/t
-                sine(j) = h(j + 1, j)/t
-                h(j, j) = t
-                rest(j + 1) = -sine(j)*rest(j)
-                rest(j) = cosine(j)*rest(j)
-                if (abs(rest(j + 1)) <= demand*first_beta .or. sine(j) <= 0.0_wp) exit
-            end do
-            if (last == 0) return
-            do i = last, 1, -1
-                rest(i) = (rest(i) - dot_product(h(i, i + 1:last), rest(i + 1:last)))/h(i, i)
-            end do
-            newton%work(:m) = rest(1)*newton%basis(:m, 1)
-            do i = 2, last
-                newton%work(:m) = newton%work(:m) + rest(i)*newton%basis(:m, i)
-            end do
+        beta = norm_of(newton%right(:m))
+        if (beta <= 0.0_wp) return
+        newton%basis(:m, 1) = newton%right(:m)/beta
+        rest = 0.0_wp
+        rest(1) = beta
+        last = 0
+        do j = 1, most_vectors
+            newton%iterations = newton%iterations + 1
+            newton%work(:m) = newton%basis(:m, j)
             call solve_rows(newton%rows, problem, newton%unknown, newton%tangent, &
-                            newton%is_carried, &
-                            newton%work(:m))
-            newton%step(:m) = newton%step(:m) + newton%work(:m)
-            if (last < most_vectors) return
-            call multiply(newton, problem, newton%step(:m), newton%basis(:m, 1))
-            newton%basis(:m, 1) = newton%right(:m) - newton%basis(:m, 1)
+                            newton%is_carried, newton%work(:m))
+            call multiply(newton, problem, newton%work(:m), newton%basis(:m, j + 1))
+            do i = 1, j
+                h(i, j) = product_of(newton%basis(:m, i), newton%basis(:m, j + 1))
+                newton%basis(:m, j + 1) = newton%basis(:m, j + 1) - h(i, j)*newton%basis(:m, i)
+            end do
+            h(j + 1, j) = norm_of(newton%basis(:m, j + 1))
+            if (h(j + 1, j) > 0.0_wp) &
+                newton%basis(:m, j + 1) = newton%basis(:m, j + 1)/h(j + 1, j)
+            do i = 1, j - 1
+                t = cosine(i)*h(i, j) + sine(i)*h(i + 1, j)
+                h(i + 1, j) = cosine(i)*h(i + 1, j) - sine(i)*h(i, j)
+                h(i, j) = t
+            end do
+            t = hypot(h(j, j), h(j + 1, j))
+            if (t <= 0.0_wp) exit
+            last = j
+            cosine(j) = h(j, j)/t
+            sine(j) = h(j + 1, j)/t
+            h(j, j) = t
+            rest(j + 1) = -sine(j)*rest(j)
+            rest(j) = cosine(j)*rest(j)
+            if (abs(rest(j + 1)) <= demand*beta .or. sine(j) <= 0.0_wp) exit
         end do
+        if (last == 0) return
+        do i = last, 1, -1
+            rest(i) = (rest(i) - dot_product(h(i, i + 1:last), rest(i + 1:last)))/h(i, i)
+        end do
+        newton%work(:m) = rest(1)*newton%basis(:m, 1)
+        do i = 2, last
+            newton%work(:m) = newton%work(:m) + rest(i)*newton%basis(:m, i)
+        end do
+        call solve_rows(newton%rows, problem, newton%unknown, newton%tangent, newton%is_carried, &
+                        newton%work(:m))
+        newton%step(:m) = newton%work(:m)
     end subroutine gmres
 
     pure real(wp) function product_of(a, b)

@@ -2,7 +2,7 @@
 module faststrip_kalker_tangential_pressures
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: largest_size, smallest_size
+    use faststrip_base_limits, only: largest_size, half_digits, smallest_size
     use faststrip_base_text, only: integer_text
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_contact, st_not_finite, &
@@ -15,10 +15,6 @@ module faststrip_kalker_tangential_pressures
     private
 
     public :: sample_strips, sample_ellipse
-
-    ! A whole number of elements stays one.
-    ! Tuned [elements]. Origin: safeguard: above rounding.
-    real(wp), parameter :: rounding = 1.0e-9_wp
 
 contains
 
@@ -97,8 +93,9 @@ contains
             call set_status(status, st_out_of_range, 'elements beyond all proportion')
             return
         end if
-        columns = max((1.0_wp - rounding)*(2.0_wp*half_length/dx), 1.0_wp)
-        rows = max((1.0_wp - rounding)*((y_right - y_left)/dy), 1.0_wp)
+        ! A whole number of elements stays one.
+        columns = max((1.0_wp - half_digits)*(2.0_wp*half_length/dx), 1.0_wp)
+        rows = max((1.0_wp - half_digits)*((y_right - y_left)/dy), 1.0_wp)
         ! What lies beside the last whole element may hold the middle of another one.
         if ((columns + 1.0_wp)*(rows + 1.0_wp) > most_elements) then
             call set_status(status, st_out_of_range, 'the grid must have at most ' &

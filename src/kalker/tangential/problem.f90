@@ -34,6 +34,7 @@
 !> tractions and by pressures, is known and counts as rigid slip.
 module faststrip_kalker_tangential_problem
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: half_digits
     use faststrip_base_text, only: integer_text
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_no_contact, &
                                      st_out_of_range
@@ -52,6 +53,7 @@ module faststrip_kalker_tangential_problem
 
     public :: problem_t, make_problem, release_problem, apply_influence, node_slip
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm, are_alike
+    public :: settled
 
     !> How slip is made of displacements.
     !> Given: numbers of kinds.
@@ -60,15 +62,12 @@ module faststrip_kalker_tangential_problem
     ! CONTACT's rigid slip is that of dx/6 ahead of the middle.
     ! Given: as CONTACT.
     real(wp), parameter :: contact_lead = 1.0_wp/6.0_wp
-    ! Pressures below this part of the largest carry no traction.
-    ! Tuned [1]. Origin: safeguard: above rounding.
-    real(wp), parameter :: least_pressure = 1.0e-10_wp
-
     ! Given: numbers of kinds.
     integer, parameter :: kernel_xx = 1, kernel_xy = 2, kernel_yy = 3, kernel_zx = 4, kernel_zy = 5
-    ! Coupling of pressures and slip below this part of 1 is none: materials given with few digits.
-    ! Tuned [1]. Origin: moduli given with six digits.
-    real(wp), parameter :: no_coupling = 1.0e-6_wp
+    !> Change of the pressures, or of the bounds of friction, over all of them, at which they stay;
+    !> a coupling of pressures and slip below it is none.
+    !> Tuned [1]. Origin: far below the errors of any grid; moduli given with five digits.
+    real(wp), parameter :: settled = 1.0e-5_wp
 
     !> Elements, influence and rigid slip; arrays grow with the grid.
     type :: problem_t
@@ -121,7 +120,8 @@ contains
         real(wp) :: floor
 
         call clear_status(status)
-        floor = least_pressure*maxval(grid%pressure)
+        ! What is but rounding beside the largest carries no traction.
+        floor = half_digits*maxval(grid%pressure)
         n = count(grid%pressure > floor)
         if (n == 0) then
             call set_status(status, st_no_contact, 'no element is in contact')
@@ -301,7 +301,7 @@ contains
     pure logical function are_alike(material)
         type(material_t), intent(in) :: material !! checked moduli, MPa
 
-        are_alike = abs(coupling_constant(material)) <= no_coupling
+        are_alike = abs(coupling_constant(material)) <= settled
     end function are_alike
 
     !> Add to the rigid slip what the pressures of dissimilar materials do, less what they did

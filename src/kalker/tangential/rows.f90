@@ -21,9 +21,6 @@ module faststrip_kalker_tangential_rows
     !> Most elements of a block.
     !> Tuned [elements]. Origin: chosen for the time; larger ones take fewer iterations.
     integer, parameter :: block_elements = 40
-    ! Columns LAPACK takes at a time.
-    ! Tuned [columns]. Origin: safeguard: more than its own choice.
-    integer, parameter :: columns_at_a_time = 64
     ! Largest change of a sliding element's direction, and of its resistance over the sum with the
     ! own compliance, by which an inverse serves on.
     ! Tuned [1]. Origin: chosen for the time.
@@ -110,7 +107,7 @@ contains
         end if
         if (.not. allocated(rows%right)) then
             allocate (rows%right(2*block_elements), rows%left(2*block_elements), &
-                      rows%work(2*block_elements*columns_at_a_time), source=0.0_sp)
+                      rows%work((2*block_elements)**2), source=0.0_sp)
             allocate (rows%pivots(2*block_elements), source=0)
         end if
         rows%unit = problem%own_row(1, 0)

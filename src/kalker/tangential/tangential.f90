@@ -21,7 +21,7 @@
 module faststrip_kalker_tangential
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: smallest_size
+    use faststrip_base_limits, only: most_steps, smallest_size
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_convergence, st_not_finite
     use faststrip_base_material, only: material_t
@@ -36,15 +36,17 @@ module faststrip_kalker_tangential
                                                    place_history
     use faststrip_kalker_tangential_nested, only: nested_t, choice_t, start_from_coarse, &
                                                   release_nested
-    use faststrip_kalker_tangential_newton, only: newton_t, size_newton, solve_newton
+    use faststrip_kalker_tangential_newton, only: newton_t, size_newton, solve_newton, &
+                                                  free_steps
     use faststrip_kalker_tangential_problem, only: problem_t, make_problem, release_problem, &
                                                    scheme_second_order, scheme_first_order, &
-                                                   edges_sampled, edges_of_norm, are_alike
+                                                   edges_sampled, edges_of_norm, are_alike, &
+                                                   settled
     implicit none
     private
 
     public :: tang_options_t, tang_workspace_t, tang_solve, release_tang, tang_most_elements
-    public :: take_tractions, are_alike
+    public :: take_tractions, are_alike, settled
     public :: tang_history_t, keep_history
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
     public :: motion_rolling, motion_shift
@@ -60,16 +62,6 @@ module faststrip_kalker_tangential
     ! r of `variational_newton` times the own compliance, tried one after the other.
     ! Tuned [1]. Origin: chosen for the number of Newton's steps.
     real(wp), parameter :: scalings(3) = [0.3_wp, 0.1_wp, 1.0_wp]
-    ! Tuned [1]: tolerances outside are refused. Origin: rounding; chosen.
-    real(wp), parameter :: least_tolerance = 1.0e-12_wp, largest_tolerance = 0.1_wp
-    ! Tuned [1]: Change of the bounds, over all of them, at which falling friction is found. Origin:
-    ! far below the errors of any grid.
-    real(wp), parameter :: settled = 1.0e-5_wp
-    ! Tuned [passes]: Most of them. Origin: safeguard.
-    integer, parameter :: most_passes = 60
-    ! Tuned [passes]: Passes that take all of the new bound; later ones the mean with the last.
-    ! Origin: chosen against elements that swing between adhesion and slip.
-    integer, parameter :: free_passes = 6
 
     !> What the user chooses.
     type :: tang_options_t
@@ -80,9 +72,8 @@ module faststrip_kalker_tangential
                                                 !! middles; `edges_of_norm`: NORM's on this grid
         logical :: sticks_everywhere = .false.  !! friction without a bound, mu does not count
         ! Tuned [1]. Origin: far below the errors of any grid.
-        real(wp) :: tolerance = 1.0e-7_wp       !! of the residual, 1e-12 to 0.1
-        ! Tuned [steps]. Origin: safeguard.
-        integer :: max_steps = 40               !! of Newton's method for each of three attempts
+        real(wp) :: tolerance = 1.0e-7_wp       !! of the residual, between 0 and 1
+        integer :: max_steps = most_steps       !! of Newton's method for each of three attempts
         logical :: warm_start = .false. !! from the last solution, if it had as many elements
         integer :: most_elements = tang_most_elements !! in contact
     end type tang_options_t
@@ -217,7 +208,7 @@ contains
             if (is_error(status) .or. .not. falls(friction) .or. options%sticks_everywhere) return
             call follow_slip(workspace, mu, friction, change)
             if (change <= settled) return
-            if (workspace%passes >= most_passes) then
+            if (workspace%passes >= most_steps) then
                 workspace%is_solved = .false.
                 call set_status(status, st_no_convergence, 'friction falls so steeply with ' // &
                                 'slip that none was found that stays: the bound changes by ' // &
@@ -265,7 +256,7 @@ contains
         real(wp) :: difference, part, squares
         integer :: i
 
-        part = merge(1.0_wp, 0.5_wp, workspace%passes <= free_passes)
+        part = merge(1.0_wp, 0.5_wp, workspace%passes <= free_steps)
         change = 0.0_wp
         squares = 0.0_wp
         do i = 1, workspace%problem%n
@@ -364,10 +355,9 @@ contains
         else if (.not. ieee_is_finite(options%tolerance)) then
             call set_status(status, st_not_finite, 'the tolerance must be a finite number, ' &
                             // 'got ' // number_text(options%tolerance))
-        else if (options%tolerance < least_tolerance &
-                 .or. options%tolerance > largest_tolerance) then
-            call set_status(status, st_bad_argument, 'the tolerance must be 1e-12 to 0.1, got ' // &
-                            number_text(options%tolerance))
+        else if (options%tolerance <= 0.0_wp .or. options%tolerance >= 1.0_wp) then
+            call set_status(status, st_bad_argument, 'the tolerance must be between 0 and 1, ' // &
+                            'got ' // number_text(options%tolerance))
         else if (options%max_steps < 1 .or. options%most_elements < 1) then
             call set_status(status, st_bad_argument, 'no steps or no elements are allowed')
         end if
