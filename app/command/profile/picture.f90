@@ -31,8 +31,8 @@ module faststrip_command_profile_picture
     real(wp), parameter :: largest_curvature = 0.12_wp
     ! Tuned [mm]: range of wear that is shown at least. Origin: chosen: a picture.
     real(wp), parameter :: least_wear = 0.1_wp
-    ! Tuned [1]: margin beside a range, over it. Origin: chosen: a picture.
-    real(wp), parameter :: share_of_margin = 0.04_wp
+    ! Margin beside a range, over it.
+    real(wp), parameter :: share_of_margin = space/panel_width
 
 contains
 

@@ -29,8 +29,8 @@ module faststrip_command_profile_svg
                            beside = tick, below = 3.0_wp*tick, far_below = 2.0_wp*below
     !> Width of a panel.
     real(wp), parameter :: panel_width = width - left - right
-    ! Tuned [ticks]: the most of an axis. Origin: chosen: a picture.
-    integer, parameter :: most_ticks = 9
+    ! Most ticks of an axis: their numbers need room.
+    integer, parameter :: most_ticks = int(panel_width/left)
     ! Given: round steps are 1, 2, 5, 10.
     real(wp), parameter :: five = 5.0_wp, ten = 10.0_wp
 
