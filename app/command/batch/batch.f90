@@ -8,7 +8,7 @@ module faststrip_command_batch
     !$ use omp_lib, only: omp_get_num_procs, omp_get_thread_num
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error, number_text, &
-                                     first_error, st_file_format
+                                     message_length, first_error, st_file_format
     use faststrip_base_text, only: integer_text, set_place_status
     use faststrip_contact_case, only: contact_case_t
     use faststrip_files_csv, only: csv_stream_t, csv_scan_t, csv_writer_t, csv_text_t, &
@@ -55,9 +55,8 @@ module faststrip_command_batch
 
     public :: run_batch, case_columns
 
-    !> Most rows of a chunk; of characters a piece.
-    !> Tuned [rows]. Origin: chosen: 10 MB in memory with their results.
-    integer, parameter :: most_rows = 4096
+    !> Most rows of a chunk: what there is to say of them is no longer than a piece.
+    integer, parameter :: most_rows = piece_length/message_length
     !> Tuned [chains]: of a thread in a chunk at least. Origin: chosen: what waits for the last one.
     integer, parameter :: least_chains = 4
 

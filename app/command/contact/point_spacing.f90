@@ -13,6 +13,7 @@ module faststrip_command_contact_point_spacing
     use faststrip_command_settings_case_file, only: case_t
     use faststrip_contact_case, only: asked_t
     use faststrip_contact_method, only: contact_result_t
+    use faststrip_contact_wanted, only: usual_tolerance
     use faststrip_command_contact_prepared_case, only: prepared_case_t, prepare_case
     use faststrip_command_contact_solver, only: solver_t, new_solver, free_solver, solve
     implicit none
@@ -20,11 +21,10 @@ module faststrip_command_contact_point_spacing
 
     public :: point_spacing_t, judge_spacing, name_spacing
 
-    ! The change of pmax that is named: half of the error that is.
-    real(wp), parameter :: pmax_limit = 0.5_wp*default_resolution
-    ! Tuned [1]: the change of forces over mu N that is named. Origin: chosen: what strips are wrong
-    ! by.
-    real(wp), parameter :: force_limit = 0.01_wp
+    ! Changes that are named: of pmax half of the error that is, of forces over mu N half of that
+    ! which auto is asked for.
+    real(wp), parameter :: pmax_limit = 0.5_wp*default_resolution, &
+                           force_limit = 0.5_wp*usual_tolerance
 
     ! Given: the unit.
     real(wp), parameter :: percent = 100.0_wp
