@@ -30,7 +30,7 @@ module faststrip_tabulate_contacts
 
     ! Tuned [1]: vertical force that is found, of the load, and the bracket of the approach in which
     ! a force jumps over it. Origin: chosen: a thousandth of what tables interpolate.
-    real(wp), parameter :: near_enough = 1.0e-6_wp, least_bracket = 1.0e-5_wp
+    real(wp), parameter :: near_enough = 1.0e-6_wp
 
     !> The contacts of a place.
     type :: found_contacts_t
@@ -99,7 +99,7 @@ contains
         demand%wants = [.true., .false.]
         demand%load(side_right) = place(3)
         demand%tolerance = near_enough
-        demand%bracket = least_bracket
+        demand%bracket = near_enough
         solver%workspace%has_last = .false.
         call solve_wheelset(model, solver%workspace, state, demand, solver%result, status)
         if (is_error(status)) then

@@ -61,8 +61,6 @@ module faststrip_tabulate_wheel
     real(wp), parameter :: share_of_places = 0.8_wp
     ! Tuned [1]: The least part of the creepages. Origin: cost: where contacts jump no nodes help.
     real(wp), parameter :: least_share = 0.25_wp
-    ! Tuned [nodes]: the most of an axis of creepages. Origin: capacity.
-    integer, parameter :: most_of_faces = 60
     ! Friction of the contacts that are solved. It does not matter.
     ! Given: a usual one.
     real(wp), parameter :: node_mu = 0.3_wp
@@ -175,7 +173,6 @@ contains
 
         if (axis%kind <= n_face_axes) then
             call self%ellipses%start(axis, axes)
-            axis%most_nodes = most_of_faces
             return
         end if
         along = axis%kind - n_face_axes

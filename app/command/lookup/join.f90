@@ -6,7 +6,7 @@ module faststrip_command_lookup_join
     use faststrip_command_program_console, only: fail, fail_on_error, usage_error, exit_bad_input
     use faststrip_command_lookup_file, only: write_table
     use faststrip_command_lookup_options, only: method_options, take_choice, take_threads, &
-                                                choice_text
+                                                choice_text, usual_tests, usual_wheel_tests
     use faststrip_command_lookup_family, only: families_t, make_family, release_family
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_integer, any_number
@@ -54,7 +54,7 @@ contains
         if (option_text(command, '-o', '-') == '-') &
             call usage_error('-o TABLE.fslt is needed: the table is no text', command%name)
         call take_choice(command, choice)
-        tests = option_integer(command, '--tests', 10000, least=100, most=10000000)
+        tests = option_integer(command, '--tests', usual_tests, least=100, most=10000000)
         associate (first => command%arguments(1)%text)
             call read_bytes(first, bytes, status)
             call fail_on_error(status)
@@ -80,7 +80,7 @@ contains
         if (lookup%kind == lookup_kind_wheel) then
             if (.not. given(command, '--case')) &
                 call usage_error('parts of the table of a wheel need --case CASE.nml', command%name)
-            tests = option_integer(command, '--tests', 2000, least=100, most=10000000)
+            tests = option_integer(command, '--tests', usual_wheel_tests, least=100, most=10000000)
         end if
         call make_family(command, choice, take_threads(command), lookup, families, family)
         call judge_table(family, tests, first_seed, lookup, status)

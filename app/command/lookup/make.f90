@@ -10,7 +10,8 @@ module faststrip_command_lookup_make
     use faststrip_command_lookup_case, only: read_wheel_case, wheel_text
     use faststrip_command_lookup_file, only: read_table, write_table, work_name, take_work
     use faststrip_command_lookup_options, only: method_options, take_choice, take_threads, &
-                                                take_ends, choice_text
+                                                take_ends, choice_text, usual_tests, &
+                                                usual_wheel_tests
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_number, option_integer, &
                                                  option_word, option_pair, option_part, &
@@ -33,9 +34,6 @@ module faststrip_command_lookup_make
 
     public :: run_lookup_make, run_lookup_wheel
 
-    ! Tuned [states]: fresh ones that a table is judged by, of ellipses and of wheels. Origin: the
-    ! 99th percentile of as many moves by less than a tenth of itself with the seed; cost.
-    integer, parameter :: usual_tests = 10000, usual_wheel_tests = 2000
     ! Tuned [1]: 99th percentile of the errors where none is asked for, of ellipses and of wheels.
     ! Origin: chosen.
     real(wp), parameter :: usual_error = 0.01_wp, usual_wheel_error = 0.03_wp

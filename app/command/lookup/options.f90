@@ -17,6 +17,7 @@ module faststrip_command_lookup_options
     private
 
     public :: method_options, take_choice, take_threads, take_ends, choice_text
+    public :: usual_tests, usual_wheel_tests
 
     !> For the tables of options.
     type(option_t), parameter :: method_options(6) = [ &
@@ -28,6 +29,11 @@ module faststrip_command_lookup_options
                  // new_line('a') // 'over mu N and mu N c (default 0.02)'), &
         option_t('--threads', 'N', 'that solve contacts (default: all cores); the bits are the' &
                  // new_line('a') // 'same for any number')]
+
+    !> Fresh states that a table is judged by, of ellipses and of wheels.
+    !> Tuned [states]. Origin: the 99th percentile of as many moves by less than a tenth of itself
+    !> with the seed; cost.
+    integer, parameter :: usual_tests = 10000, usual_wheel_tests = 2000
 
     integer, parameter :: strips_of(4) = [usual_strips, usual_rows, usual_strips, usual_strips]
 

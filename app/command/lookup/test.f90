@@ -11,7 +11,7 @@ module faststrip_command_lookup_test
     use faststrip_command_lookup_family, only: families_t, make_family, release_family
     use faststrip_command_lookup_file, only: read_table
     use faststrip_command_lookup_options, only: method_options, take_choice, take_threads, &
-                                                choice_text
+                                                choice_text, usual_tests, usual_wheel_tests
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_integer
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, require_column, &
@@ -26,9 +26,11 @@ module faststrip_command_lookup_test
 
     public :: run_lookup_test
 
-    ! Tuned [states, look-ups]: that times are taken of. Origin: chosen; long enough for a clock,
-    ! with more states than nodes that a cache holds.
-    integer, parameter :: timed_states = 20000, timed_passes = 5
+    ! States that times are taken of: more than nodes that a cache holds.
+    integer, parameter :: timed_states = 2*usual_tests
+    ! Tuned [passes]: over them, of which the fastest counts. Origin: chosen: another program may
+    ! disturb some.
+    integer, parameter :: timed_passes = 5
 
 contains
 
@@ -76,7 +78,8 @@ contains
         call read_table(command%arguments(1)%text, lookup)
         choice%nu = lookup%nu
         is_wheel = lookup%kind == lookup_kind_wheel
-        n = option_integer(command, '--tests', merge(2000, 10000, is_wheel), least=1, most=10000000)
+        n = option_integer(command, '--tests', merge(usual_wheel_tests, usual_tests, is_wheel), &
+                           least=1, most=10000000)
         seed = option_integer(command, '--seed', 1, least=0, most=1000000)
         if (is_wheel .and. given(command, '--states')) &
             call usage_error('--states is for tables of ellipses', command%name)
