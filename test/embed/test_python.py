@@ -322,7 +322,7 @@ class Contacts(HostTest):
                           for name in ("contact/methods", "contact/reserve", "tangential/types",
                                        "geometry/gap/gap"))
         package = sys.modules["faststrip._contact"]
-        for name, limit in (("most_strips", package.MOST_STRIPS),
+        for name, limit in (("most_points", package.MOST_STRIPS),
                             ("most_points", package.MOST_POINTS),
                             ("most_rows", package.MOST_ROWS),
                             ("min_gap_points", package.GAP_POINTS[0]),
