@@ -33,11 +33,11 @@ module faststrip_contact_wanted
     real(wp), parameter :: usual_tolerance = 0.02_wp
 
     !> Part of the tolerance that is aimed at.
-    !> Tuned [1]. Origin: chosen for the time.
+    !> Tuned [1]. Origin: chosen for the time: 0.7 takes a tenth more.
     real(wp), parameter :: margin = 0.85_wp
 
     ! Tuned [1]: Estimated error above which a solution tells no more of what others need. Origin:
-    ! measured on contacts with waves, kinks and corners.
+    ! measured on contacts with waves, kinks and corners; 0.2 moves one of 160 answers by 0.3 %.
     real(wp), parameter :: most_telling = 0.3_wp
 
     !> What people call them.
