@@ -21,7 +21,7 @@ module faststrip_kalker_tangential_newton
     public :: newton_t, size_newton, solve_newton, most_vectors, free_steps
 
     !> Most vectors of GMRES; Newton's next step goes on from there.
-    !> Tuned [vectors]. Origin: capacity.
+    !> Tuned [vectors]. Origin: capacity: the tests and the outputs of ./run net take fewer.
     integer, parameter :: most_vectors = 60
     !> Steps before the carried nodes are kept; passes of a falling bound that take all of the new
     !> one, later ones the mean with the last.

@@ -38,10 +38,12 @@ module faststrip_normal_simple_analyn
     ! to the penetration.
     ! Tuned [1]: Over A. Origin: 1e-4/mm, as in CONTACT, on a wheel of 460 mm.
     real(wp), parameter :: least_ratio = 0.092_wp
-    ! Tuned [1]: Over the mean. Origin: chosen: below what gaps of one curvature have.
+    ! Tuned [1]: Over the mean. Origin: chosen: below what gaps of one curvature have; 20 contacts
+    ! S1002/UIC60 are the same at half and double.
     real(wp), parameter :: least_of_mean = 0.5_wp
     ! Places in a stretch below the penetration where the penetration left is looked at.
-    ! Tuned [points]. Origin: chosen: patches narrower than the distance may be missed.
+    ! Tuned [points]. Origin: chosen: patches narrower than the distance may be missed; with twice
+    ! as many Fx and Fy of 20 contacts S1002/UIC60 change by up to 0.2 %, with half nothing does.
     integer, parameter :: probes = 16
     ! Change of ln(B/A) over that of ln(a/b), of which Newton's method starts.
     ! Tuned [1]. Origin: chosen: between 3/2 of circles and 2; from 3/2 forces change in the ninth

@@ -54,13 +54,15 @@ module faststrip_normal_simple_approximate
     ! Half the distance of the two points in a strip, over its width.
     ! Given: Gauss
     real(wp), parameter :: half_distance = 0.5_wp/sqrt(3.0_wp)
-    ! Tuned [points]: where a patch's length is looked at for its area. Origin: chosen.
+    ! Tuned [points]: where a patch's length is looked at for its area. Origin: chosen: with half
+    ! area and pmax of ANALYN change by up to 2 % and 14 % in 20 contacts S1002/UIC60, with twice as
+    ! many those of KPEC by 0.01 % and 0.7 %.
     integer, parameter :: area_points = 24
     ! Tuned [1]: how well an end is found, over the distance it is looked for in. Origin: chosen:
     ! far below the methods' errors.
     real(wp), parameter :: end_tolerance = 1.0e-9_wp
     ! Share of a value that a chord has to take off, or the middle is tried next.
-    ! Tuned [1]. Origin: chosen.
+    ! Tuned [1]. Origin: chosen for the time: half and double move forces in the tenth digit.
     real(wp), parameter :: creeping = 0.1_wp
 
     !> One patch, by a method that knows its length and pressure at every y.

@@ -31,10 +31,12 @@ module faststrip_normal_simple_kpec_strips
     public :: kpec_strips_solve
 
     ! How near the load of KPEC's patch has to come.
-    ! Tuned [1]. Origin: chosen: its errors are larger, and the load is met after it.
+    ! Tuned [1]. Origin: chosen: its errors are larger, and the load is met after it; at half areas
+    ! of 20 contacts S1002/UIC60 change by up to 2 %, at double by 4 %.
     real(wp), parameter :: near_load = 0.03_wp
     ! What is left of KPEC's pressure where a strip would pull.
-    ! Tuned [1]. Origin: chosen: nothing, for the figures, but positive.
+    ! Tuned [1]. Origin: chosen: positive, but nothing for the figures: half and double change the
+    ! forces of 20 contacts S1002/UIC60 by up to 0.1 %.
     real(wp), parameter :: left_over = 0.01_wp
     ! Tuned [1]: Penetration over that of KPEC, or the reverse, beyond which KPEC's stands. Origin:
     ! safeguard.
