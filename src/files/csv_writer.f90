@@ -20,7 +20,7 @@ module faststrip_files_csv_writer
     public :: put_line, close_csv, abort_csv
     public :: collect_csv, collected, collected_length, forget_collected, put_text
     public :: real_text, failure_words
-    public :: table_finisher, finish_tables
+    public :: finish_tables
 
     !> A file being written; its parts are the writer's own business.
     type :: csv_writer_t

@@ -16,7 +16,6 @@ module faststrip_files_lines
 
     public :: text_file_t, open_text, find_line, read_line, close_text, is_folder
     public :: place_t, place_in, go_to_place, count_anew
-    public :: longest_line, most_lines, most_bytes
 
     ! What is longer has no end, or is no table: the longest table the program writes itself has a
     ! row for each of a million random gaps.

@@ -1,8 +1,7 @@
 !> Reading a wear law from a CSV file.
 module faststrip_files_wear_law
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, clear_status, is_error, st_file_format, &
-                                     st_bad_argument
+    use faststrip_base_status, only: status_t, clear_status, is_error, st_file_format
     use faststrip_base_text, only: integer_text, lower_case, parse_real, set_place_status, &
                                    trim_blanks
     use faststrip_files_csv, only: csv_table_t, read_csv, require_column, cell_number, cell_text

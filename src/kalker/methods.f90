@@ -47,7 +47,6 @@ module faststrip_kalker_methods
     private
 
     public :: kalker_methods_t, add_kalker, release_kalker
-    public :: tang_watch
 
     ! Tuned [us, 1]: Costs and error estimates of both, by target: forces, pmax, penetration, area,
     ! power. Origin: medians of 134 contacts of the families of `force-data`.

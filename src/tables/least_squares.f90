@@ -13,7 +13,7 @@ module faststrip_tables_least_squares
     implicit none
     private
 
-    public :: least_squares_t, factor_least_squares, solve_least_squares, svd_condition
+    public :: least_squares_t, factor_least_squares, solve_least_squares
 
     !> From this condition number on solutions come from the singular values: there the relative
     !> error of R^-1 reaches the square root of rounding.

@@ -2,7 +2,7 @@
 !> these; the right readings are in the rooms of the subjects.
 module faststrip_tables_literal
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range, &
                                      st_no_convergence

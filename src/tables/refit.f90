@@ -32,9 +32,9 @@ module faststrip_tables_refit
     private
 
     public :: refit_t, table_row_t, refit_plan_t
-    public :: prepare_refit, refit_row, measure_row, check_row, row_relative_error, log_influence
+    public :: prepare_refit, refit_row, measure_row, check_row, row_relative_error
     public :: fit_lsq, fit_minimax_error, fit_author
-    public :: most_degree, most_distance, most_l, most_coefficient, condition_limit, error_points
+    public :: most_degree, most_distance, error_points
 
     integer, parameter :: fit_lsq = 1
     integer, parameter :: fit_minimax_error = 2

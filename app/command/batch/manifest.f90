@@ -5,7 +5,7 @@
 !> is: two runs whose values agree make the same bytes.
 module faststrip_command_batch_manifest
     use, intrinsic :: iso_fortran_env, only: int64
-    use faststrip_base_status, only: status_t, is_error, clear_status, status_word, st_file_format
+    use faststrip_base_status, only: status_t, is_error, status_word, st_file_format
     use faststrip_base_text, only: set_place_status
     use faststrip_files_csv, only: csv_table_t, csv_text_t, csv_writer_t, read_csv, cell_text, &
                                    open_csv, put_comment, put_header, put_cell, end_row, close_csv

@@ -143,7 +143,6 @@ contains
         integer, intent(in) :: tested(:)
 
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: kind, order, k, i
 
         call begin_table(writer, path)
@@ -184,7 +183,6 @@ contains
         character(len=9), parameter :: sums(5) = [character(len=9) :: &
             'Fx_N', 'Fy_N', 'Fz_N', 'Mz_Nmm', 'N_y_N']
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i, j, k
 
         call begin_table(writer, path)

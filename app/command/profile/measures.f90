@@ -94,8 +94,6 @@ contains
         type(csv_writer_t), intent(inout) :: writer  !! an open file
         type(measures_t), intent(in) :: measures     !! one file
 
-        integer :: i
-
         call put_cell(writer, printable(measures%path))
         if (is_error(measures%status)) then
             call put_cell(writer, trim(measures%points%format))

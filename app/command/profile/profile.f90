@@ -235,7 +235,6 @@ contains
         type(measures_t), intent(in) :: measures(:)
 
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i
 
         call begin_table(writer, path)

@@ -18,7 +18,7 @@ module faststrip_command_program_console
     public :: hold, tell_held
     public :: name_program, program_name, version_text, printable
     public :: begin_table, end_table, put_origin
-    public :: exit_bad_input, exit_usage, exit_no_convergence
+    public :: exit_bad_input, exit_usage
 
     !> Exit codes.
     !> Given: numbers that scripts know.

@@ -9,7 +9,7 @@ module faststrip_command_program_options
     implicit none
     private
 
-    public :: command_t, option_t, argument_t
+    public :: command_t, option_t
     public :: command_argument, need_nothing_more, refuse_subcommand, parse_command, given, &
         option_text, option_number, option_integer, option_word, option_pair, option_part, &
         refuse_value, given_options, has_option, any_number, most_parts, most_threads

@@ -1,6 +1,5 @@
 !> `faststrip columns`: the catalogue of columns, one row a column.
 module faststrip_command_rows_columns
-    use faststrip_base_status, only: status_t
     use faststrip_files_columns, only: columns, column_group, holds_text, holds_counts
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
     use faststrip_files_units, only: column_unit
@@ -17,7 +16,6 @@ contains
     subroutine run_columns()
         type(command_t) :: command
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         character(len=10) :: unit
         integer :: i
 

@@ -78,7 +78,6 @@ contains
         character(len=:), allocatable :: choice
         real(wp) :: values(n_figures)
         logical :: known(n_figures), with_times
-        integer :: i
 
         with_times = .true.
         if (present(tells_times)) with_times = tells_times
@@ -198,8 +197,6 @@ contains
         type(strip_forces_t), intent(in) :: forces   !! N; empty if the method has none
         type(strip_wear_t), intent(in) :: wear       !! of the strips
         integer, intent(in) :: k                     !! which one
-
-        integer :: j
 
         associate (left => strips%y_left(k), right => strips%y_right(k), &
                    length => strips%half_length(k), p0 => strips%p0(k))

@@ -1,6 +1,5 @@
 !> `faststrip settings`: what can be set, one row a setting.
 module faststrip_command_settings_list
-    use faststrip_base_status, only: status_t
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
     use faststrip_command_program_console, only: begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text
@@ -16,7 +15,6 @@ contains
     subroutine run_settings()
         type(command_t) :: command
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i
 
         command%name = 'settings'

@@ -20,7 +20,7 @@ module faststrip_command_settings_profiles
     implicit none
     private
 
-    public :: bodies_t, shape_t, left_wheel_t, read_bodies, put_reading
+    public :: bodies_t, read_bodies, put_reading
 
     !> A profile that a case file names.
     type :: shape_t

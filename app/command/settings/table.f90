@@ -18,10 +18,9 @@ module faststrip_command_settings_table
     implicit none
     private
 
-    public :: setting_t, value_t, settings, falling_settings, n_state, state_names, of_group
+    public :: value_t, settings, falling_settings, n_state, state_names, of_group
     public :: find_setting, read_value, kind_words, range_words, full_words, option_help, one_of
-    public :: words_of, norm_starts
-    public :: a_text, a_path, a_word, a_whole, a_number, a_list, a_flag
+    public :: a_text, a_path, a_word, a_number, a_list, a_flag
     public :: no_fault, wrong_kind, out_of_range
 
     !> What a value is: a text, a file, one of some words, a whole number, a number, numbers, yes.

@@ -1,7 +1,7 @@
 !> The audit of a coefficient table: from a CSV file, or the published one.
 module faststrip_command_table_audit
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, clear_status, is_error, set_status, st_file_format
+    use faststrip_base_status, only: status_t, clear_status, is_error, st_file_format
     use faststrip_base_text, only: integer_text, set_place_status
     use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, column_index, read_cell, &
                                   put_header, put_comment, put_cell, end_row, put_cells, &
@@ -191,7 +191,6 @@ contains
         type(audit_t), intent(in) :: audits(:)
 
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i
 
         call begin_table(writer, path)

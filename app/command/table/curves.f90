@@ -35,7 +35,6 @@ contains
         ! Given: L from -4 to 3.
         integer, parameter :: first = -400, last = 300
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         type(table_row_t) :: row
         real(wp) :: l, b
         integer :: i, j

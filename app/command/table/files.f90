@@ -6,8 +6,8 @@ module faststrip_command_table_files
     use faststrip_files_csv, only: csv_text_t, csv_writer_t, open_csv, put_header, put_comment, &
                                    put_cell, put_line, end_row, real_text, put_cells
     use faststrip_tables_polynomials, only: basis_monomial, basis_chebyshev
-    use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, fit_minimax_error, &
-                                      fit_author, error_points
+    use faststrip_tables_refit, only: refit_plan_t, table_row_t, fit_minimax_error, fit_author, &
+                                      error_points
     use faststrip_command_program_console, only: fail_on_error, put_origin, version_text, &
                                                  end_table
     implicit none

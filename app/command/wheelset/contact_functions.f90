@@ -68,7 +68,6 @@ contains
         type(contact_functions_t), intent(in) :: functions(:) !! to be written
 
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i
 
         call begin_table(writer, output)

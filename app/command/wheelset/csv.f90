@@ -110,8 +110,6 @@ contains
         type(csv_writer_t), intent(inout) :: writer
         character(len=*), intent(in) :: case, side, word, message
 
-        integer :: i
-
         call put_cell(writer, case)
         call put_cell(writer, side)
         call put_cell(writer, 0)

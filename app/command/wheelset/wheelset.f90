@@ -220,8 +220,6 @@ contains
     subroutine close_drawn(run)
         type(run_t), intent(inout) :: run
 
-        type(status_t) :: status
-
         if (.not. run%is_drawn) return
         call end_table(run%drawn)
     end subroutine close_drawn

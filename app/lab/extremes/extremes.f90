@@ -1,6 +1,5 @@
 !> `faststrip-lab bench extremes`: how accurate and how steady everything is where it is hardest.
 module faststrip_lab_extremes
-    use faststrip_base_status, only: status_t
     use faststrip_files_csv, only: csv_writer_t, put_comment
     use faststrip_lab_extremes_influence, only: references_t, read_references, influence_extremes
     use faststrip_lab_extremes_noise, only: named_case_t, find_contacts, noise_extremes, &
@@ -32,7 +31,6 @@ contains
         type(references_t) :: influence_numbers(2)
         type(named_case_t), allocatable :: all_contacts(:)
         type(csv_writer_t) :: writer
-        type(status_t) :: status
 
         if (wanted('influence')) call read_references(references, influence_numbers)
         if (wanted('noise') .or. wanted('rounding')) &

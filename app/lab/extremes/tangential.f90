@@ -14,7 +14,7 @@ module faststrip_lab_extremes_tangential
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_lab_grid_ellipse, only: make_ellipse
     use faststrip_lab_extremes_rows, only: row_t, put_row, status_of
-    use faststrip_command_program_console, only: fail_on_error, progress
+    use faststrip_command_program_console, only: progress
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_methods, only: method_t

@@ -1,6 +1,5 @@
 !> `faststrip-lab force-data`: reference creep forces of random contacts.
 module faststrip_lab_forces_data
-    use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_comment
     use faststrip_command_program_console, only: usage_error, progress, begin_table, end_table
@@ -24,7 +23,6 @@ contains
     subroutine run_force_data()
         type(command_t) :: command
         type(csv_writer_t) :: writer
-        type(status_t) :: written
         type(reference_workspaces_t) :: work
         type(force_contact_t) :: contact
         type(force_record_t) :: record

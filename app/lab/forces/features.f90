@@ -15,11 +15,10 @@ module faststrip_lab_forces_features
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse
     use faststrip_normal_sub_patches, only: has_neck
-    use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_fastsim, only: fastsim_strips_solve
     use faststrip_tangential_faststrip, only: faststrip_tangential_solve, default_points
     use faststrip_tangential_patch_law, only: patch_law_t, find_law
-    use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape, n_even, n_odd
+    use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
     use faststrip_tangential_types, only: tangential_result_t, most_points
     use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_contact
     use faststrip_lab_random_force_gaps, only: force_families
@@ -49,7 +48,6 @@ contains
         type(csv_writer_t) :: writer
         type(file_t), allocatable :: files(:)
         type(workspace_t) :: workspace
-        type(status_t) :: status
         integer :: file, row, strips, points
 
         command%name = 'force-features'
@@ -155,7 +153,7 @@ contains
         type(tangential_result_t) :: forces, fastsim
         type(status_t) :: status
         real(wp) :: u(3)
-        integer :: i, k
+        integer :: i
 
         ellipse = patch_ellipse(strips, 1, strips%n)
         shape = patch_shape(strips, 1, strips%n, ellipse)

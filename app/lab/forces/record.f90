@@ -13,7 +13,7 @@ module faststrip_lab_forces_record
     implicit none
     private
 
-    public :: force_record_t, force_state_t, put_record_header, put_record, take_record
+    public :: force_record_t, put_record_header, put_record, take_record
     public :: most_states
 
     !> Creepages of each contact.

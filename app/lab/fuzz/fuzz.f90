@@ -106,7 +106,6 @@ contains
         character(len=:), allocatable :: only
         type(csv_writer_t) :: writer
         type(fuzz_case_t) :: case
-        type(status_t) :: written
         integer :: number, n
 
         only = option_text(command, '--family', '')

@@ -11,7 +11,7 @@ module faststrip_lab_fuzz_judges
     implicit none
     private
 
-    public :: verdict_t, report_badness, is_broken, broken_judges, allowance
+    public :: verdict_t, report_badness, is_broken, broken_judges
     public :: n_judges, judge_names, judge_demands
     public :: judge_answer, judge_finite, judge_order, judge_load, judge_pmax, judge_area, &
               judge_ends, judge_depth, judge_centre, judge_tip, judge_middle, judge_outside, &

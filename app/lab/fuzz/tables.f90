@@ -277,8 +277,6 @@ contains
         type(fuzz_case_t), intent(in) :: case
         type(verdict_t), intent(in) :: verdict
 
-        integer :: i
-
         call put_cell(writer, case%number)
         call put_cell(writer, trim(all_families(case%family)))
         call put_cell(writer, case%load)

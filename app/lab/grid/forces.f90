@@ -169,7 +169,7 @@ contains
         type(status_t) :: status
         real(wp) :: error(n_errors), force, power, size_of
         logical :: counts(n_errors)
-        integer :: m, j
+        integer :: m
 
         case = contact
         force = contact%mu*contact%load

@@ -87,7 +87,6 @@ contains
 
         type(bench_t) :: bench
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i
 
         call prepare(folder, bench)
@@ -163,7 +162,7 @@ contains
         real(wp) :: fastsim(size(bench%cases))
         character(len=16) :: names(size(bench%cases), size(starts))
         integer(int64) :: begin, now
-        integer :: i, k, start, figure, counts(size(starts)), n_fastsim
+        integer :: i, k, start, counts(size(starts)), n_fastsim
         logical :: solved
 
         counts = 0

@@ -6,7 +6,7 @@
 !> program took is no part of the tail, and the tail is the solver's own.
 module faststrip_lab_grid_steps
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, number_text, status_word
+    use faststrip_base_status, only: status_t, is_error, status_word
     use faststrip_base_text, only: integer_text
     use faststrip_base_material, only: normal_compliance
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row

@@ -155,7 +155,7 @@ contains
         integer, intent(in) :: rounds
         type(run_t), intent(in) :: runs(:)
 
-        integer :: k, figure
+        integer :: k
 
         do k = 1, size(runs)
             call put_cell(writer, name)

@@ -143,7 +143,7 @@ contains
         integer, intent(in) :: n
         type(times_t), intent(in) :: times
 
-        integer :: m, figure, elements
+        integer :: m, elements
 
         do m = 1, size(tangential_methods)
             elements = merge(times%elements, 1, tangential_methods(m)%gives_elements)

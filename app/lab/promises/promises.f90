@@ -51,7 +51,6 @@ contains
     subroutine run_promises()
         type(command_t) :: command
         type(csv_writer_t) :: writer
-        type(status_t) :: written
         type(method_entry_t), allocatable :: entries(:)
         type(judged_t), allocatable :: contacts(:)
         character(len=:), allocatable :: truth, methods, folder
@@ -149,7 +148,7 @@ contains
         type(gap_curve_t) :: curve
         type(status_t) :: status
         character(len=:), allocatable :: name
-        integer :: i, k
+        integer :: i
 
         call begin_table(writer, folder // '/cases.csv')
         call put_header(writer, case_columns)

@@ -31,7 +31,7 @@ contains
     subroutine run_truth()
         type(command_t) :: command
         type(csv_writer_t) :: writer
-        type(status_t) :: status, written
+        type(status_t) :: status
         type(truth_workspace_t) :: work
         type(ellipses_t) :: ellipses
         character(len=:), allocatable :: name

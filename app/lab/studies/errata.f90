@@ -458,7 +458,6 @@ contains
         type(finding_t), intent(in) :: list(:)
 
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i
 
         call begin_table(writer, path)

@@ -92,7 +92,6 @@ contains
         character(len=*), intent(in) :: path !! CSV file to write, or `-`
 
         type(study_t), allocatable :: study
-        type(status_t) :: status
         integer :: e
 
         allocate (study)

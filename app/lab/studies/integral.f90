@@ -301,7 +301,6 @@ contains
         type(csv_writer_t), intent(inout) :: writer
         type(cost_t), intent(in) :: cost(:)
 
-        type(status_t) :: status
         character(len=:), allocatable :: cpu, flags, compiler
         real(wp) :: ns(3)
         integer :: i

@@ -59,7 +59,6 @@ contains
         type(csv_writer_t) :: writer
         type(contact_tables_t) :: contact
         type(tang_workspace_t) :: tang
-        type(status_t) :: status
         real(wp), allocatable :: chosen(:)
         real(wp) :: value(5), scatter(5), worst(5), from
         integer :: i, k, elements

@@ -110,7 +110,7 @@ contains
         real(wp) :: us(size(bench%cases), size(starts)), share, dx
         character(len=16) :: names(size(bench%cases), size(starts))
         integer(int64) :: begin, now
-        integer :: i, k, start, t, figure, counts(size(starts))
+        integer :: i, k, start, t, counts(size(starts))
         logical :: solved
 
         counts = 0

@@ -41,7 +41,6 @@ contains
     subroutine run_scenes()
         type(command_t) :: command
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: number, last
 
         command%name = 'scenes'

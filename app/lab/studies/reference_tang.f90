@@ -186,7 +186,6 @@ contains
 
         type(tang_options_t) :: options
         real(wp) :: figures(size(spread_names))
-        integer :: figure
 
         figures = spread_of(runs%times(1:runs%n))
         call put_cell(writer, 'tang')

@@ -42,7 +42,6 @@ contains
         character(len=*), intent(in) :: folder !! with the contacts and hertz_creep.csv
 
         type(csv_writer_t) :: writer
-        type(status_t) :: status
 
         call begin_table(writer, file)
         call put_comment(writer, 'forces of TANG less those of CONTACT, extrapolated, in % of ' &
@@ -151,7 +150,6 @@ contains
         type(tangential_result_t) :: result
         type(status_t) :: status
         real(wp) :: before, after, errors(3)
-        integer :: j
 
         options%scheme = schemes(k)
         options%edges = edges

@@ -59,7 +59,7 @@ contains
         real(wp) :: p0(strips_across, n_methods), depth(n_methods)
         real(wp) :: us(size(spread_names), n_methods)
         type(status_t) :: status(n_methods)
-        integer :: i, m, k
+        integer :: i, m
 
         call make_refits(rows)
         do i = 1, size(cases)

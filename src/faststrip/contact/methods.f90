@@ -15,7 +15,7 @@ module faststrip_contact_methods
     public :: gives_elements, gives_stick, takes_falling
     public :: most_strips, most_rows, usual_rows, usual_side
     public :: check_normal_method, check_tangential_method, check_resolutions
-    public :: start_coarse, start_strips, start_last
+    public :: start_strips, start_last
 
     !> Length of a method's name, characters.
     !> Given: the longest name fits.

@@ -18,7 +18,7 @@ module faststrip_geometry_rigid_contact
 
     public :: wheelset_t, track_t, rigid_contact_t
     public :: find_rigid_contact, find_rigid_contacts, contact_force, shift_creepage
-    public :: find_gauge_point, place_rail, creepage_set_a, creepage_set_b, largest_length
+    public :: place_rail, creepage_set_a, creepage_set_b, largest_length
     public :: scan_step
 
     !> The wheelset; both wheels carry the same profile.

@@ -9,7 +9,7 @@ module faststrip_geometry_sampled
     implicit none
     private
 
-    public :: sampled_profile_t, make_sampled_profile, sampled_profile_at, min_profile_points
+    public :: sampled_profile_t, make_sampled_profile, sampled_profile_at
 
     !> Fewest points that describe a profile.
     !> Tuned [points]. Origin: chosen; as few as splines take.

@@ -13,7 +13,7 @@ module faststrip_geometry_touchable
     implicit none
     private
 
-    public :: touchable_t, find_touchable, touchable_words, words_length
+    public :: touchable_t, find_touchable, touchable_words
     public :: body_wheel, body_rail, same_place
 
     !> What a profile is of.

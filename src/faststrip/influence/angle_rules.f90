@@ -21,9 +21,9 @@ module faststrip_influence_angle_rules
     implicit none
     private
 
-    public :: exact, fine, coarse, n_rules, rule_size, rule_start, n_nodes, cosine, sine
+    public :: exact, fine, coarse, rule_size, rule_start, cosine, sine
     public :: far_limit, half_t
-    public :: n_column_rules, n_column_nodes, near_a0, near_a1, near_last
+    public :: n_column_rules, near_a0, near_a1, near_last
     public :: one_cosh, one_sinh, d_cosh, d_sinh
 
     integer :: i_, j_, k_

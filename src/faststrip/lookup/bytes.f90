@@ -19,7 +19,7 @@ module faststrip_lookup_bytes
     implicit none
     private
 
-    public :: open_lookup, pack_lookup, lookup_version
+    public :: open_lookup, pack_lookup
 
     !> Version of the layout.
     !> Given: number of the file format.

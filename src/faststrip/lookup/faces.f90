@@ -19,7 +19,7 @@ module faststrip_lookup_faces
     private
 
     public :: faces_cell_t, find_faces_cell, sum_faces, finish_faces, creepages_at
-    public :: n_faces, n_forces, lookup_linear, lookup_cubic, force_signs
+    public :: n_faces, n_forces, lookup_linear, lookup_cubic
 
     !> Faces of a table, and forces at each node.
     !> Given: three creepages, one of them of either sign; Fx, Fy, Mz.

@@ -10,17 +10,10 @@ module faststrip_lookup_table
     public :: n_contact_numbers, most_slots, n_wheel_errors
     public :: at_load, at_angle, at_rail_y, at_rail_z, at_ahead, at_wheel_y, at_radius, at_height, &
               at_area, at_pmax, at_length, at_creep, at_spin
-    public :: lookup_scatter_mean, lookup_scatter_percentile, &
-              lookup_scatter_worst
 
     !> Kinds of tables.
     !> Given: numbers of the file format.
     integer, parameter :: lookup_kind_hertz = 1, lookup_kind_wheel = 2
-
-    !> Second index of `errors`: mean, 99th percentile and worst.
-    !> Given: numbers of the file format.
-    integer, parameter :: lookup_scatter_mean = 1, lookup_scatter_percentile = 2, &
-                          lookup_scatter_worst = 3
 
     !> Numbers of a contact of a wheel: normal force, N; contact angle, rad; y, z on the rail's
     !> profile, mm; place ahead of the wheelset's centre, mm; y on the wheel's profile, mm; rolling

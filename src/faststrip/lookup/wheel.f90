@@ -18,8 +18,8 @@ module faststrip_lookup_wheel
     use faststrip_lookup_axis, only: lookup_axis_t, stencil_t, linear_stencil, cubic_stencil
     use faststrip_lookup_faces, only: faces_cell_t, find_faces_cell, sum_faces, finish_faces, &
                                       n_forces, lookup_linear, lookup_cubic
-    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, most_slots, &
-                                      at_load, at_area, at_pmax, at_length, at_creep, at_spin
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, at_load, &
+                                      at_area, at_length, at_creep, at_spin
     implicit none
     private
 

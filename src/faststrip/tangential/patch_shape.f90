@@ -7,7 +7,7 @@
 !> right are exchanged, those called even stay.
 module faststrip_tangential_patch_shape
     use faststrip_base_kinds, only: wp
-    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t
     implicit none
     private

@@ -22,7 +22,7 @@ module faststrip_wheelset_strips
     implicit none
     private
 
-    public :: wheel_strips_t, reserve_wheel_strips, find_wheel_strips
+    public :: wheel_strips_t, find_wheel_strips
 
     ! Tuned [mm]: how near to it. Origin: safeguard: above rounding.
     real(wp), parameter :: exact = 1.0e-12_wp

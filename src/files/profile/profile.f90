@@ -8,11 +8,10 @@ module faststrip_files_profile
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_file_format
-    use faststrip_base_text, only: trim_blanks, lower_case, integer_text, set_place_status
+    use faststrip_base_text, only: lower_case, integer_text, set_place_status
     use faststrip_geometry_touchable, only: body_wheel, body_rail
-    use faststrip_files_profile_points, only: profile_file_t, profile_options_t, key_t, line_t, &
-                                              read_lines, add_note, without_comment, split_key, &
-                                              length_unit
+    use faststrip_files_profile_points, only: profile_file_t, profile_options_t, line_t, &
+                                              read_lines, without_comment, split_key, length_unit
     use faststrip_files_profile_simpack, only: read_simpack
     use faststrip_files_profile_miniprof, only: read_miniprof, is_miniprof_key
     use faststrip_files_profile_vampire, only: read_vampire
@@ -22,7 +21,7 @@ module faststrip_files_profile
     private
 
     public :: read_profile, profile_format_t, profile_formats, profile_file_t, profile_options_t
-    public :: key_t, length_unit, ends_with
+    public :: length_unit, ends_with
     public :: body_wheel, body_rail
 
     !> A format besides text of two columns.

@@ -10,7 +10,7 @@ module faststrip_files_profile_senses
     implicit none
     private
 
-    public :: check_shape, min_points
+    public :: check_shape
 
     !> Fewest points of a profile.
     integer, parameter :: min_points = 5

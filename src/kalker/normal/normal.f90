@@ -24,9 +24,9 @@ module faststrip_kalker_normal
     use faststrip_kalker_normal_estimate, only: raise_estimates
     use faststrip_kalker_normal_grid, only: grid_solver_t, release_grid_solver, set_task, &
                                             solve_on_grid, guess_on_heights, take_figures
-    use faststrip_kalker_normal_options, only: norm_options_t, norm_most_elements, check_options, &
-                                               check_numbers, check_load, check_heights, &
-                                               fitting_side, fewest_elements
+    use faststrip_kalker_normal_options, only: norm_options_t, check_options, check_numbers, &
+                                               check_load, check_heights, fitting_side, &
+                                               fewest_elements
     use faststrip_kalker_normal_position, only: extent_t, guess_extent, extent_of_strips, &
                                                 extent_of_grid, position_grid, take_missing_rows, &
                                                 columns_suffice, reaches_end_of_data, &
@@ -43,7 +43,7 @@ module faststrip_kalker_normal
     public :: norm_options_t, norm_workspace_t, demand_t
     public :: reserve_norm, release_norm, set_norm_gap, set_norm_curve
     public :: norm_solve, norm_solve_penetration, norm_solve_demand, norm_solve_heights
-    public :: norm_most_elements, norm_watch
+    public :: norm_watch
 
     ! Tuned [1]: Tolerance of coarser levels. Origin: far below what the next level changes.
     real(wp), parameter :: coarse_tolerance = 1.0e-6_wp

@@ -18,7 +18,7 @@ module faststrip_kalker_tangential_newton
     implicit none
     private
 
-    public :: newton_t, size_newton, solve_newton, most_vectors, free_steps
+    public :: newton_t, size_newton, solve_newton, free_steps
 
     !> Most vectors of GMRES; Newton's next step goes on from there.
     !> Tuned [vectors]. Origin: capacity: the tests and the outputs of ./run net take fewer.

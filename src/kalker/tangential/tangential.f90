@@ -45,7 +45,7 @@ module faststrip_kalker_tangential
     implicit none
     private
 
-    public :: tang_options_t, tang_workspace_t, tang_solve, release_tang, tang_most_elements
+    public :: tang_options_t, tang_workspace_t, tang_solve, release_tang
     public :: take_tractions, are_alike, settled
     public :: tang_history_t, keep_history
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm

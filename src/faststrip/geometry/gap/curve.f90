@@ -10,7 +10,7 @@
 !> Points that lie so close that their heights tell no slope are one that was measured or written
 !> twice: of them the curve has the middle.
 !>
-!> Of a gap and its mirror image (y to -y) one counts as the image of the other (`is_mirror_image`),
+!> Of a gap and its mirror image (y to -y) one counts as the image of the other (`side_of`),
 !> and its curve is made from the other's: so the two curves agree to the last digit.
 module faststrip_geometry_gap_curve
     use faststrip_base_kinds, only: wp
@@ -28,8 +28,7 @@ module faststrip_geometry_gap_curve
 
     public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points, copy_gap_curve
     public :: gap_at, gap_curvature, level_intervals
-    public :: is_mirror_image, mirror_gap_curve
-    public :: valley_below
+    public :: mirror_gap_curve, valley_below
     public :: gap_inv2r, inclination_change, largest_step, first_point_from
 
     !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
@@ -50,7 +49,7 @@ module faststrip_geometry_gap_curve
         integer :: n_pieces = 0  !! number of monotone pieces, between n_pieces + 1 nodes
         real(wp) :: y_lowest = 0.0_wp !! where the gap is lowest, mm
         real(wp) :: h_lowest = 0.0_wp !! lowest height, mm
-        logical :: is_image = .false. !! see `is_mirror_image`
+        logical :: is_image = .false. !! see `side_of`
         logical :: is_even = .false.  !! is it its own mirror image?
         real(wp), allocatable :: y(:), h(:)    !! points, mm
         real(wp), allocatable :: slope_from(:) !! h' of interval i at point i
@@ -295,18 +294,9 @@ contains
         end if
     end subroutine take_points
 
-    !> Which of a gap and its mirror image is the image? That which is lower, or has its point
-    !> farther from y = 0, or the smaller longitudinal term, at the first point that tells it from
-    !> the other; a symmetric gap is not.
-    pure logical function is_mirror_image(y, h, inv2r) result(is_image)
-        real(wp), intent(in) :: y(:)     !! points, ascending, mm
-        real(wp), intent(in) :: h(:)     !! heights there, mm
-        real(wp), intent(in) :: inv2r(:) !! longitudinal terms there, 1/mm
-
-        is_image = side_of(y, h, inv2r) < 0
-    end function is_mirror_image
-
-    !> -1: the gap counts as a mirror image; 1: its mirror image does; 0: it is its own.
+    !> -1: the gap counts as a mirror image; 1: its mirror image does; 0: it is its own. The image
+    !> is that which is lower, or has its point farther from y = 0, or the smaller longitudinal
+    !> term, at the first point that tells it from the other.
     pure integer function side_of(y, h, inv2r) result(side)
         real(wp), intent(in) :: y(:), h(:), inv2r(:)
 

@@ -7,7 +7,7 @@ module faststrip_influence_offcentre_rules
     private
 
     public :: accuracy_t, for_value, for_gradient, least_far_rule, least_near_rule, interval
-    public :: n_scalar_rules, scalar_size, scalar_start
+    public :: scalar_size, scalar_start
 
     ! Fewer sizes than the columns have, for choosing one costs as much as some nodes: 4, 6, 8, 12,
     ! 16, 20, 24, 32, 48, 64, 96, 128, 192.

@@ -50,7 +50,7 @@ module faststrip_normal_cells_lattice
     private
 
     public :: lattice_workspace_t, reserve_lattice, lattice_solve, lattice_solve_penetration
-    public :: lattice_errors, lattice_errors_t, forget_lattice_errors, most_lattice_strips
+    public :: lattice_errors, lattice_errors_t, forget_lattice_errors
 
     !> More strips across the largest patch are not used, however many are asked for.
     !> Tuned [strips]. Origin: capacity.

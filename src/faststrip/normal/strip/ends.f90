@@ -13,7 +13,6 @@ module faststrip_normal_strip_ends
     private
 
     public :: move_ends, part_ends, close_overlaps, overlap_left, end_step, end_width, end_stride
-    public :: farthest_out
 
     !> How far an end may be carried on, inwards and outwards.
     !> Tuned [strip widths]. Origin: safeguard: an end moves no farther in a pass.

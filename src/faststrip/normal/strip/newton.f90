@@ -11,7 +11,7 @@ module faststrip_normal_strip_newton
     private
 
     public :: most_updates, newton_workspace_t, reserve_newton, solve_strips
-    public :: newton_converged, newton_strips_leave, newton_failed
+    public :: newton_converged, newton_strips_leave
 
     ! Given: numbers of kinds.
     integer, parameter :: newton_converged = 0    !! pressures, lengths and load agree

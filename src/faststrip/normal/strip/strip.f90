@@ -13,17 +13,16 @@
 !> fewer strips do not converge twice as many are tried; a gap whose ends do not converge with them
 !> either, within a bounded work, gets the answer of `faststrip_normal_cells_lattice`.
 !>
-!> Of a gap and its mirror image one is solved and mirrored (`is_mirror_image`; in a history of warm
-!> starts the first gap decides): what is decided on the way, rounding included, is the same on a
-!> left and on a right wheel.
+!> Of a gap and its mirror image one is solved and mirrored (in a history of warm starts the first
+!> gap decides): what is decided on the way, rounding included, is the same on a left and on a right
+!> wheel.
 module faststrip_normal_strip
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, add_limitation, &
-                                     number_text, count_text, add_words, message_length, &
-                                     st_bad_argument, st_bad_load, st_not_finite, st_no_contact, &
-                                     st_fewer_strips, st_overlap_left, st_more_strips, &
-                                     st_workspace_too_small
+    use faststrip_base_status, only: status_t, set_status, is_error, add_limitation, number_text, &
+                                     count_text, add_words, message_length, st_bad_argument, &
+                                     st_bad_load, st_not_finite, st_no_contact, st_fewer_strips, &
+                                     st_overlap_left, st_more_strips, st_workspace_too_small
     use faststrip_base_material, only: check_compliance
     use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors
     use faststrip_normal_cells_lattice, only: lattice_errors, lattice_errors_t
