@@ -6,7 +6,7 @@
 module faststrip_lab_extremes_influence
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, st_out_of_range
-    use faststrip_files_csv, only: csv_writer_t, csv_table_t, read_csv, column_numbers
+    use faststrip_files_csv, only: csv_writer_t
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_offcentre, only: strip_influence_at, strip_influence_gradient
     use faststrip_influence_polynomial, only: table_influence, table_last_distance
@@ -15,6 +15,7 @@ module faststrip_lab_extremes_influence
                                       refit_row
     use faststrip_influence_row, only: influence_column, influence_column_at
     use faststrip_tables_polynomials, only: basis_chebyshev, polynomial_value
+    use faststrip_lab_grid_cases, only: read_rows
     use faststrip_lab_extremes_rows, only: row_t, put_row, status_of
     use faststrip_command_program_console, only: fail_on_error, progress
     use faststrip_lab_studies_exact_influence, only: exact_influence, judge_name, qp
@@ -29,9 +30,9 @@ module faststrip_lab_extremes_influence
                                         1.1_wp, 3.0_wp, 1.0e3_wp, 1.0e6_wp]
     integer, parameter :: refit_degree = 16
 
-    !> Committed influence coefficients; X is 0 on the centre line.
+    !> Committed influence coefficients.
     type :: references_t
-        real(wp), allocatable :: n(:), b(:), x(:), value(:)
+        real(wp), allocatable :: figures(:, :) !! distance n, b, value; off the centre line X, too
     end type references_t
 
 contains
@@ -41,26 +42,11 @@ contains
         character(len=*), intent(in) :: folder           !! of the files
         type(references_t), intent(out) :: references(2) !! on the centre line and off it
 
-        character(len=*), parameter :: files(2) = [character(len=24) :: 'reference_center.csv', &
-                                                   'reference_offcenter.csv']
-        character(len=*), parameter :: names(2) = [character(len=5) :: 'i_n', 'value']
-        type(csv_table_t) :: table
-        type(status_t) :: status
-        integer :: i
+        character(len=*), parameter :: names(4) = [character(len=5) :: 'n', 'b', 'value', 'X']
 
-        do i = 1, 2
-            call read_csv(folder // '/' // trim(files(i)), table, status)
-            call fail_on_error(status)
-            call column_numbers(table, 'n', references(i)%n, status)
-            call fail_on_error(status)
-            call column_numbers(table, 'b', references(i)%b, status)
-            call fail_on_error(status)
-            call column_numbers(table, trim(names(i)), references(i)%value, status)
-            call fail_on_error(status)
-            references(i)%x = 0.0_wp*references(i)%b
-            if (i == 2) call column_numbers(table, 'X', references(i)%x, status)
-            call fail_on_error(status)
-        end do
+        call read_rows(folder // '/reference_center.csv', [character(len=3) :: 'n', 'b', 'i_n'], &
+                       references(1)%figures)
+        call read_rows(folder // '/reference_offcenter.csv', names, references(2)%figures)
     end subroutine read_references
 
     !> Measure and write.
@@ -240,31 +226,32 @@ contains
         type(csv_writer_t), intent(inout) :: writer
 
         type(row_t) :: row
-        real(wp) :: uncertainty
+        real(wp) :: x, uncertainty
         real(qp) :: exact
         integer :: i
 
-        associate (n => references%n, b => references%b, x => references%x, &
-                   truth => references%value)
-            do i = 1, size(b), merge(30, 1, quick)
-                row = row_t(chapter='references', x_name='b', x=b(i), y_name='X', y=x(i), &
+        x = 0.0_wp
+        do i = 1, size(references%figures, 1), merge(30, 1, quick)
+            if (is_off_centre) x = references%figures(i, 4)
+            associate (n => references%figures(i, 1), b => references%figures(i, 2), &
+                       truth => references%figures(i, 3))
+                row = row_t(chapter='references', x_name='b', x=b, y_name='X', y=x, &
                             quantity='rel_err', judge='committed')
-                write (row%case, '(a, i0)') 'n = ', nint(n(i))
-                call exact_influence(x(i), (2*n(i) - 1)*real(b(i), qp), &
-                                     (2*n(i) + 1)*real(b(i), qp), &
-                                     exact, uncertainty)
+                write (row%case, '(a, i0)') 'n = ', nint(n)
+                call exact_influence(x, (2*n - 1)*real(b, qp), (2*n + 1)*real(b, qp), exact, &
+                                     uncertainty)
                 row%method = judge_name
-                row%value = abs(real(exact/truth(i) - 1, wp)) + uncertainty
+                row%value = abs(real(exact/truth - 1, wp)) + uncertainty
                 call put_row(writer, row)
                 row%method = 'closed'
                 if (is_off_centre) then
-                    row%value = strip_influence_at(x(i), (2*n(i) - 1)*b(i), (2*n(i) + 1)*b(i))
+                    row%value = strip_influence_at(x, (2*n - 1)*b, (2*n + 1)*b)
                 else
-                    row%value = strip_influence(nint(n(i)), b(i))
+                    row%value = strip_influence(nint(n), b)
                 end if
-                row%value = abs(row%value - truth(i))/truth(i)
+                row%value = abs(row%value - truth)/truth
                 call put_row(writer, row)
-            end do
-        end associate
+            end associate
+        end do
     end subroutine committed
 end module faststrip_lab_extremes_influence

@@ -115,8 +115,7 @@ contains
         type(status_t) :: status
         integer :: i
 
-        call read_bench_cases(folder, cases, status)
-        call fail_on_error(status)
+        call read_bench_cases(folder, cases)
         allocate (contacts(size(cases) + size(example_names)))
         do i = 1, size(cases)
             contacts(i)%name = cases(i)%name

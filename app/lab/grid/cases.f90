@@ -3,20 +3,21 @@
 !> and TANG. See `reference/README.md`.
 module faststrip_lab_grid_cases
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t, is_error, st_file_format
+    use faststrip_base_status, only: status_t, st_file_format
     use faststrip_files_csv, only: csv_table_t, read_csv, column_numbers, require_column, cell_text
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_numerics_elliptic, only: complete_elliptic, complete_elliptic_d
     use faststrip_files_gap, only: read_gap_file
     use faststrip_base_text, only: integer_text, set_place_status
+    use faststrip_command_program_console, only: fail_on_error
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_random_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
     private
 
-    public :: bench_case_t, read_bench_cases, read_ellipse_cases, read_scene_cases
+    public :: bench_case_t, read_bench_cases, read_ellipse_cases, read_scene_cases, read_rows
 
     !> One contact and what a reference finds for it.
     type, extends(contact_case_t) :: bench_case_t
@@ -37,11 +38,11 @@ module faststrip_lab_grid_cases
 contains
 
     !> Read `s1002_uic60_B.csv` of a folder, or that of the other sign set, and the gap files it
-    !> stands for. They are of like bodies.
-    subroutine read_bench_cases(folder, cases, status, signs)
+    !> stands for. They are of like bodies. Like all readers here it ends the program if a file cannot
+    !> be read.
+    subroutine read_bench_cases(folder, cases, signs)
         character(len=*), intent(in) :: folder                     !! name of the folder
         type(bench_case_t), allocatable, intent(out) :: cases(:)   !! one a row
-        type(status_t), intent(out) :: status                      !! of the readers
         character(len=1), intent(in), optional :: signs            !! of the creepages, A or B
 
         character(len=*), parameter :: names(15) = [character(len=16) :: &
@@ -50,15 +51,14 @@ contains
             'Mz_extrap_Nmm', 'n_adhesion', 'n_contact']
         character(len=:), allocatable :: words(:)
         real(wp), allocatable :: values(:, :)
+        type(status_t) :: status
         character(len=1) :: letter
         integer :: i
 
         letter = 'B'
         if (present(signs)) letter = signs
-        call read_rows(folder // '/s1002_uic60_' // letter // '.csv', 'yw_mm', names, words, &
-                       values, status)
+        call read_rows(folder // '/s1002_uic60_' // letter // '.csv', names, values, 'yw_mm', words)
         allocate (cases(size(words)))
-        if (is_error(status)) return
         do i = 1, size(cases)
             cases(i)%set = 's1002_uic60'
             cases(i)%name = 'shift_' // trim(words(i))
@@ -74,15 +74,14 @@ contains
             cases(i)%forces = values(i, 11:13)
             cases(i)%stick_fraction = values(i, 14)/values(i, 15)
             call read_gap_file(folder // '/gaps/' // cases(i)%name // '.csv', cases(i)%gap, status)
-            if (is_error(status)) return
+            call fail_on_error(status)
         end do
     end subroutine read_bench_cases
 
     !> Read `hertz_creep.csv` of a folder: forces by CONTACT, the rest exact.
-    subroutine read_ellipse_cases(folder, cases, status)
+    subroutine read_ellipse_cases(folder, cases)
         character(len=*), intent(in) :: folder                     !! name of the folder
         type(bench_case_t), allocatable, intent(out) :: cases(:)   !! one a row
-        type(status_t), intent(out) :: status                      !! of the reader
 
         character(len=*), parameter :: names(14) = [character(len=9) :: &
             'a_mm', 'b_mm', 'G', 'nu', 'mu', 'N', 'cksi', 'ceta', 'cphi', 'Fx_extrap', &
@@ -92,9 +91,8 @@ contains
         real(wp) :: young, inv2r_x, inv2r_y
         integer :: i, k
 
-        call read_rows(folder // '/hertz_creep.csv', 'case', names, words, values, status)
+        call read_rows(folder // '/hertz_creep.csv', names, values, 'case', words)
         allocate (cases(size(words)))
-        if (is_error(status)) return
         do i = 1, size(cases)
             associate (row => values(i, :))
                 cases(i)%set = 'hertz'
@@ -128,23 +126,19 @@ contains
     end subroutine read_ellipse_cases
 
     !> Read the contacts of many kinds, their figures by Kalker's method.
-    subroutine read_scene_cases(file, cases, status)
+    subroutine read_scene_cases(file, cases)
         character(len=*), intent(in) :: file                     !! `scenes.csv`
         type(bench_case_t), allocatable, intent(out) :: cases(:) !! one a row
-        type(status_t), intent(out) :: status                    !! of the reader
 
         character(len=*), parameter :: names(11) = [character(len=15) :: &
             'number', 'cksi', 'ceta', 'cphi_rad_per_mm', 'penetration_mm', 'pmax_MPa', &
             'area_mm2', 'Fx_extrap_N', 'Fy_extrap_N', 'Mz_extrap_Nmm', 'stick_fraction']
-        type(csv_table_t) :: table
         type(reference_scene_t) :: scene
         real(wp), allocatable :: values(:, :)
         integer :: i
 
-        call read_csv(file, table, status)
-        if (.not. is_error(status)) call read_columns(table, names, values, status)
-        allocate (cases(table%n_rows))
-        if (is_error(status)) return
+        call read_rows(file, names, values)
+        allocate (cases(size(values, 1)))
         do i = 1, size(cases)
             associate (row => values(i, :))
                 call make_reference_scene(nint(row(1)), scene)
@@ -182,51 +176,38 @@ contains
         penetration = 1.5_wp*load_compliance*k/long
     end subroutine ellipse_gap
 
-    ! The words of one column and the numbers of others, at least one row.
-    subroutine read_rows(file, name, names, words, values, status)
-        character(len=*), intent(in) :: file, name, names(:)
-        character(len=:), allocatable, intent(out) :: words(:)
-        real(wp), allocatable, intent(out) :: values(:, :)
-        type(status_t), intent(out) :: status
+    !> Read numbers, and words beside them, at least one row; ends the program if that cannot be done.
+    subroutine read_rows(file, names, values, name, words)
+        character(len=*), intent(in) :: file                !! CSV
+        character(len=*), intent(in) :: names(:)            !! of the columns of numbers
+        real(wp), allocatable, intent(out) :: values(:, :)  !! rows by names
+        character(len=*), intent(in), optional :: name      !! of the column of words
+        character(len=:), allocatable, intent(out), optional :: words(:)
 
         ! Of a shift or of what creepages are.
         integer, parameter :: longest_word = 40
         type(csv_table_t) :: table
+        type(status_t) :: status
+        real(wp), allocatable :: numbers(:)
         integer :: i, column
 
-        allocate (character(len=longest_word) :: words(0))
         call read_csv(file, table, status)
-        if (is_error(status)) return
-        call read_columns(table, names, values, status)
-        if (is_error(status)) return
-        if (table%n_rows == 0) then
+        call fail_on_error(status)
+        allocate (values(table%n_rows, size(names)))
+        do i = 1, size(names)
+            call column_numbers(table, trim(names(i)), numbers, status)
+            call fail_on_error(status)
+            values(:, i) = numbers
+        end do
+        if (table%n_rows == 0) &
             call set_place_status(status, st_file_format, 'no contacts', '', table%file, 0)
-            return
-        end if
+        call fail_on_error(status)
+        if (.not. present(words)) return
         call require_column(table, name, column, status)
-        if (is_error(status)) return
-        deallocate (words)
+        call fail_on_error(status)
         allocate (character(len=longest_word) :: words(table%n_rows))
         do i = 1, table%n_rows
             words(i) = cell_text(table, i, column)
         end do
     end subroutine read_rows
-
-    ! The numbers of several columns.
-    subroutine read_columns(table, names, values, status)
-        type(csv_table_t), intent(in) :: table
-        character(len=*), intent(in) :: names(:)
-        real(wp), allocatable, intent(out) :: values(:, :) ! rows by names
-        type(status_t), intent(out) :: status
-
-        real(wp), allocatable :: column(:)
-        integer :: i
-
-        allocate (values(table%n_rows, size(names)), source=0.0_wp)
-        do i = 1, size(names)
-            call column_numbers(table, trim(names(i)), column, status)
-            if (is_error(status)) return
-            values(:, i) = column
-        end do
-    end subroutine read_columns
 end module faststrip_lab_grid_cases

@@ -127,8 +127,7 @@ contains
 
         type(status_t) :: status
 
-        call read_bench_cases(folder, contacts, status)
-        call fail_on_error(status)
+        call read_bench_cases(folder, contacts)
     end subroutine read_contacts
 
     !> Ellipses of many proportions under one load, judged by Hertz.

@@ -9,7 +9,7 @@
 !> elements.
 module faststrip_lab_grid_forces
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, &
                                   put_cell, put_cells, end_row
     use faststrip_base_text, only: integer_text
@@ -58,8 +58,7 @@ contains
         type(status_t) :: status
 
         ! Read before anything is written.
-        call read_scene_cases(scenes, cases, status)
-        call fail_on_error(status)
+        call read_scene_cases(scenes, cases)
         call begin_table(writer, file)
         call put_comment(writer, 'errors against extrapolated references: forces in % of mu N, ' &
                          // 'moment in % of mu N c, power in %, stick fraction in points')
@@ -89,8 +88,7 @@ contains
         integer :: i
 
         tally = tally_t()
-        call read_ellipse_cases(folder, cases, status)
-        call fail_on_error(status)
+        call read_ellipse_cases(folder, cases)
         contact%methods%normal = normal_hertz
         call reserve_workspace(workspace, contact%methods, min_gap_points, status)
         call fail_on_error(status)
@@ -124,8 +122,7 @@ contains
         type(bench_case_t), allocatable :: cases(:)
         type(status_t) :: status
 
-        call read_bench_cases(folder, cases, status, signs)
-        call fail_on_error(status)
+        call read_bench_cases(folder, cases, signs)
         call compare_by_strips(cases, 's1002_uic60_' // signs, writer, tally)
         call tell('s1002_uic60_' // signs, tally)
     end subroutine compare_shifts
@@ -181,7 +178,7 @@ contains
         do m = 1, size(tangential_methods)
             case%methods%tangential = tangential_methods(m)%number
             call solve_contact_forces(workspace, case, found, status)
-            if (is_error(status)) call fail_on_error(status)
+            call fail_on_error(status)
             associate (result => found%tangential)
                 error(:2) = ([result%fx, result%fy] - reference%forces(:2))/force
                 error(3) = hypot(error(1), error(2))

@@ -77,8 +77,7 @@ contains
         integer :: round, i, k
 
         call read_method_list(methods_file, entries)
-        call read_bench_cases(folder, cases, status)
-        call fail_on_error(status)
+        call read_bench_cases(folder, cases)
         if (quick) then
             entries = pack(entries, [(entries(k)%when == 'always', k=1, size(entries))])
             cases = cases(:: 5)

@@ -85,10 +85,8 @@ contains
         type(status_t) :: status
         integer :: i, kind
 
-        call read_bench_cases(folder, cases, status)
-        call fail_on_error(status)
-        call read_scene_cases(scenes, others, status)
-        call fail_on_error(status)
+        call read_bench_cases(folder, cases)
+        call read_scene_cases(scenes, others)
         call make_wheel_profile('s1002', wheel, status)
         call fail_on_error(status)
         call make_rail_profile('uic60', standard_inclination, rail, status)

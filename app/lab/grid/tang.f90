@@ -6,7 +6,7 @@
 !> plans and influence coefficients there, the median of all rounds.
 module faststrip_lab_grid_tang
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: normal_compliance, combined_shear_modulus
@@ -69,8 +69,7 @@ contains
         type(run_t), allocatable :: runs(:, :)
         integer :: k, i
 
-        call read_bench_cases(folder, cases, status)
-        call fail_on_error(status)
+        call read_bench_cases(folder, cases)
         if (quick) cases = cases(1::quick_step)
         allocate (runs(size(creepages), size(cases)))
         call begin_table(writer, file)
@@ -120,7 +119,7 @@ contains
                 call tang_solve(tang, norm%grid, case%material, mu, creepage_of(case, k), options, &
                                 runs(k)%result, status)
                 us(round) = cpu_microseconds() - from
-                if (is_error(status)) call fail_on_error(status, case%name)
+                call fail_on_error(status, case%name)
             end do
             runs(k)%elements = tang%elements
             runs(k)%grid = norm%grid%nx*norm%grid%ny

@@ -4,7 +4,7 @@
 !> percentile and the worst; `us_with_field` is a median.
 module faststrip_lab_grid_tangential
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, number_text
+    use faststrip_base_status, only: status_t, number_text
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
@@ -52,8 +52,7 @@ contains
         type(status_t) :: status
         integer :: i, k
 
-        call read_bench_cases(folder, cases, status)
-        call fail_on_error(status)
+        call read_bench_cases(folder, cases)
         allocate (times(size(cases)))
         call begin_table(writer, file)
         call put_header(writer, [character(len=16) :: 'method', 'strips', 'points', 'case', &
@@ -133,7 +132,7 @@ contains
                 call solve_contact_forces(workspace, contact, result, status)
             end do
             us = (cpu_microseconds() - from)/repetitions(method)
-            if (is_error(status)) call fail_on_error(status)
+            call fail_on_error(status)
         end function time_of
     end subroutine measure_case
 

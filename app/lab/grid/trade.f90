@@ -57,12 +57,9 @@ contains
         integer :: i
 
         call read_method_list(methods_file, entries)
-        call read_bench_cases(folder, wheelset, status)
-        call fail_on_error(status)
-        call read_ellipse_cases(folder, hertz, status)
-        call fail_on_error(status)
-        call read_scene_cases(scenes_file, scenes, status)
-        call fail_on_error(status)
+        call read_bench_cases(folder, wheelset)
+        call read_ellipse_cases(folder, hertz)
+        call read_scene_cases(scenes_file, scenes)
         call begin_table(writer, file)
         call put_comment(writer, 'errors: relative, of forces over mu N, of the moment over ' &
                          // 'mu N c; times: of the stage, processor')

@@ -15,17 +15,15 @@ module faststrip_lab_promises_contacts
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
-    use faststrip_lab_grid_cases, only: bench_case_t, read_ellipse_cases
-    use faststrip_lab_checkout, only: in_checkout
+    use faststrip_lab_grid_cases, only: bench_case_t
     use faststrip_lab_random_numbers, only: random_t, start_random, uniform, log_uniform, chance
     use faststrip_lab_random_promise_gaps, only: draw_promise_gap, gap_kinds
     use faststrip_lab_promises_wheelsets, only: draw_wheelset_gap
     implicit none
     private
 
-    public :: promise_contact_t, ellipses_t, read_ellipses, find_promise_contact, &
-              draw_promise_creepages
-    public :: promise_kinds, rounded, states_drawn
+    public :: promise_contact_t, find_promise_contact, draw_promise_creepages
+    public :: promise_kinds, states_drawn
 
     !> What the kinds of contacts are called.
     character(len=12), parameter :: promise_kinds(3 + size(gap_kinds)) = &
@@ -45,24 +43,11 @@ module faststrip_lab_promises_contacts
         logical :: has_motion = .false. !! is `creepage` that of a wheelset?
     end type promise_contact_t
 
-    !> Contacts that CONTACT has solved.
-    type :: ellipses_t
-        type(bench_case_t), allocatable :: cases(:)
-    end type ellipses_t
-
 contains
-
-    !> Read the contacts that are not drawn.
-    subroutine read_ellipses(ellipses, status)
-        type(ellipses_t), intent(out) :: ellipses
-        type(status_t), intent(out) :: status !! of the reader
-
-        call read_ellipse_cases(in_checkout('reference/contact'), ellipses%cases, status)
-    end subroutine read_ellipses
 
     !> A contact, if it is drawn but for its creepages.
     subroutine find_promise_contact(ellipses, kind, number, contact, status)
-        type(ellipses_t), intent(in) :: ellipses        !! read beforehand
+        type(bench_case_t), intent(in) :: ellipses(:)   !! of CONTACT
         integer, intent(in) :: kind                     !! index of `promise_kinds`
         integer, intent(in) :: number                   !! from 1
         type(promise_contact_t), intent(out) :: contact !! gap, load, material, friction
@@ -73,11 +58,11 @@ contains
         contact%number = number
         if (promise_kinds(kind) /= 'ellipse') then
             call draw_contact(contact)
-        else if (number > size(ellipses%cases)) then
+        else if (number > size(ellipses)) then
             call set_status(status, st_out_of_range, 'there is no ellipse ' &
                             // count_text(number))
         else
-            contact%contact_case_t = ellipses%cases(number)%contact_case_t
+            contact%contact_case_t = ellipses(number)%contact_case_t
         end if
     end subroutine find_promise_contact
 

@@ -24,8 +24,9 @@ module faststrip_lab_promises
     use faststrip_command_contact_solver, only: solver_t, new_solver, free_solver, solve
     use faststrip_lab_grid_method_list, only: method_entry_t, read_method_list
     use faststrip_lab_checkout, only: in_checkout
-    use faststrip_lab_promises_contacts, only: promise_contact_t, ellipses_t, read_ellipses, &
-                                               find_promise_contact, promise_kinds
+    use faststrip_lab_grid_cases, only: bench_case_t, read_ellipse_cases
+    use faststrip_lab_promises_contacts, only: promise_contact_t, find_promise_contact, &
+                                               promise_kinds
     use faststrip_lab_promises_record, only: truth_record_t, take_truth, n_figures, figure_names, &
                                              figure_units
     implicit none
@@ -116,14 +117,13 @@ contains
         type(judged_t), allocatable, intent(out) :: contacts(:)
 
         type(csv_table_t) :: table
-        type(ellipses_t) :: ellipses
+        type(bench_case_t), allocatable :: ellipses(:)
         type(status_t) :: status
         integer :: i
 
         call read_csv(file, table, status)
         call fail_on_error(status)
-        call read_ellipses(ellipses, status)
-        call fail_on_error(status)
+        call read_ellipse_cases(in_checkout('reference/contact'), ellipses)
         allocate (contacts((table%n_rows + thinning - 1)/thinning))
         do i = 1, size(contacts)
             associate (truth => contacts(i)%truth, contact => contacts(i)%contact)

@@ -5,13 +5,13 @@ module faststrip_lab_promises_truths
     use faststrip_base_text, only: integer_text
     use faststrip_base_creepage, only: creepage_t
     use faststrip_files_csv, only: csv_writer_t, put_comment
-    use faststrip_command_program_console, only: fail_on_error, note, progress, usage_error, &
-                                                 begin_table, end_table
+    use faststrip_command_program_console, only: note, progress, usage_error, begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
                                                  option_integer
-    use faststrip_lab_promises_contacts, only: promise_contact_t, ellipses_t, read_ellipses, &
-                                               find_promise_contact, draw_promise_creepages, &
-                                               promise_kinds, states_drawn
+    use faststrip_lab_checkout, only: in_checkout
+    use faststrip_lab_grid_cases, only: bench_case_t, read_ellipse_cases
+    use faststrip_lab_promises_contacts, only: promise_contact_t, find_promise_contact, &
+                                               draw_promise_creepages, promise_kinds, states_drawn
     use faststrip_lab_promises_record, only: truth_record_t, put_truth_header, put_truth, &
                                              figure_units
     use faststrip_lab_promises_truth, only: truth_workspace_t, find_patches, find_pressures, &
@@ -33,7 +33,7 @@ contains
         type(csv_writer_t) :: writer
         type(status_t) :: status
         type(truth_workspace_t) :: work
-        type(ellipses_t) :: ellipses
+        type(bench_case_t), allocatable :: ellipses(:)
         character(len=:), allocatable :: name
         integer :: each, across, kind, only, i
 
@@ -59,8 +59,7 @@ contains
         only = findloc(promise_kinds == name, .true., dim=1)
         if (only == 0 .and. name /= '') &
             call usage_error('--kind must be a kind of contacts, got ' // name, command%name)
-        call read_ellipses(ellipses, status)
-        call fail_on_error(status)
+        call read_ellipse_cases(in_checkout('reference/contact'), ellipses)
         call begin_table(writer, option_text(command, '-o', '-'))
         call put_comment(writer, 'NORM and TANG, ' // integer_text(across/2) // ' and ' &
                          // integer_text(across) // ' elements across length_mm and width_mm; ' &
@@ -74,7 +73,7 @@ contains
             do i = 1, each
                 call progress(trim(promise_kinds(kind)), i, each)
                 if (promise_kinds(kind) == 'ellipse') then
-                    if (1 + ellipse_stride*(i - 1) > size(ellipses%cases)) exit
+                    if (1 + ellipse_stride*(i - 1) > size(ellipses)) exit
                     call put_contact(writer, work, ellipses, kind, 1 + ellipse_stride*(i - 1), &
                                      across)
                 else
@@ -89,7 +88,7 @@ contains
     subroutine put_contact(writer, work, ellipses, kind, number, across)
         type(csv_writer_t), intent(inout) :: writer
         type(truth_workspace_t), intent(inout) :: work
-        type(ellipses_t), intent(in) :: ellipses
+        type(bench_case_t), intent(in) :: ellipses(:)
         integer, intent(in) :: kind, number, across
 
         type(promise_contact_t) :: contact
@@ -145,13 +144,13 @@ contains
 
     !> What Hertz and CONTACT say of an ellipse; its forces are as doubtful as TANG's differ.
     subroutine take_reference(ellipses, record)
-        type(ellipses_t), intent(in) :: ellipses
+        type(bench_case_t), intent(in) :: ellipses(:)
         type(truth_record_t), intent(inout) :: record
 
         type(truth_record_t) :: own
 
         own = record
-        associate (case => ellipses%cases(record%number))
+        associate (case => ellipses(record%number))
             record%figures(:6) = [case%truth%penetration, case%truth%pmax, case%truth%area, &
                                   case%forces]
         end associate

@@ -7,9 +7,8 @@
 module faststrip_lab_studies_kalker
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, number_text
-    use faststrip_files_csv, only: csv_table_t, csv_writer_t, read_csv, column_numbers, &
-                                   require_column, cell_text, put_comment, put_header, put_cell, &
-                                   end_row, put_cells
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, end_row, &
+                                   put_cells
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_material, only: material_t, combined_shear_modulus
     use faststrip_kalker_grid, only: contact_grid_t, size_grid, element_x, element_y
@@ -17,6 +16,7 @@ module faststrip_lab_studies_kalker
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            release_tang
+    use faststrip_lab_grid_cases, only: read_rows
     use faststrip_command_program_clock, only: cpu_microseconds
     use faststrip_command_program_console, only: fail_on_error, note, progress, begin_table, &
                                                  end_table
@@ -43,9 +43,8 @@ module faststrip_lab_studies_kalker
 
     !> CONTACT's coefficients, extrapolated in its grids.
     type :: contact_tables_t
-        type(csv_table_t) :: table
-        real(wp), allocatable :: ratio(:), nu(:), value(:)
-        integer :: name_column = 0
+        character(len=:), allocatable :: name(:)
+        real(wp), allocatable :: figures(:, :) ! aspect ratio, Poisson's ratio, value
     end type contact_tables_t
 
 contains
@@ -63,7 +62,8 @@ contains
         real(wp) :: value(5), scatter(5), worst(5), from
         integer :: i, k, elements
 
-        call read_contact(folder // '/kalker_computed.csv', contact)
+        call read_rows(folder // '/kalker_computed.csv', [character(len=10) :: 'a_over_b', 'nu', &
+                       'richardson'], contact%figures, 'coef', contact%name)
         chosen = ratios
         if (quick) chosen = quick_ratios
         call begin_table(writer, file)
@@ -90,24 +90,6 @@ contains
                       // ' % from the table')
         end do
     end subroutine bench_kalker
-
-    subroutine read_contact(file, contact)
-        character(len=*), intent(in) :: file
-        type(contact_tables_t), intent(out) :: contact
-
-        type(status_t) :: status
-
-        call read_csv(file, contact%table, status)
-        call fail_on_error(status)
-        call column_numbers(contact%table, 'a_over_b', contact%ratio, status)
-        call fail_on_error(status)
-        call column_numbers(contact%table, 'nu', contact%nu, status)
-        call fail_on_error(status)
-        call column_numbers(contact%table, 'richardson', contact%value, status)
-        call fail_on_error(status)
-        call require_column(contact%table, 'coef', contact%name_column, status)
-        call fail_on_error(status)
-    end subroutine read_contact
 
     !> The coefficients of one ellipse, by the lines through those of all grids.
     subroutine coefficients(ratio, nu, tang, value, scatter, elements)
@@ -233,10 +215,10 @@ contains
         integer :: i
 
         value = 0.0_wp
-        do i = 1, contact%table%n_rows
-            if (abs(contact%ratio(i)/ratio - 1.0_wp) > 1.0e-6_wp) cycle
-            if (abs(contact%nu(i) - nu) > 1.0e-6_wp) cycle
-            if (cell_text(contact%table, i, contact%name_column) == name) value = contact%value(i)
+        do i = 1, size(contact%name)
+            if (abs(contact%figures(i, 1)/ratio - 1.0_wp) > 1.0e-6_wp) cycle
+            if (abs(contact%figures(i, 2) - nu) > 1.0e-6_wp) cycle
+            if (contact%name(i) == name) value = contact%figures(i, 3)
         end do
     end function by_contact
 end module faststrip_lab_studies_kalker

@@ -78,8 +78,7 @@ contains
         type(status_t) :: status
         integer :: i
 
-        call read_bench_cases(folder, bench%cases, status)
-        call fail_on_error(status)
+        call read_bench_cases(folder, bench%cases)
         do i = 1, size(bench%cases)
             bench%points = max(bench%points, size(bench%cases(i)%gap%y))
         end do

@@ -5,7 +5,7 @@
 module faststrip_lab_studies_reference_tang
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_cell, put_cells, end_row
     use faststrip_base_creepage, only: creepage_t
@@ -171,7 +171,7 @@ contains
         from = cpu_microseconds()
         call tang_solve(tang, grid, case%material, mu, creepage, options, result, status)
         runs%times(run) = cpu_microseconds() - from
-        if (is_error(status)) call fail_on_error(status, case%name)
+        call fail_on_error(status, case%name)
         runs%products(run) = tang%products
         runs%elements = tang%elements
     end subroutine run_once

@@ -70,8 +70,7 @@ contains
         type(status_t) :: status
         integer :: i, k, points, side
 
-        call read_bench_cases(folder, cases, status, signs)
-        call fail_on_error(status)
+        call read_bench_cases(folder, cases, signs)
         points = 0
         do i = 1, size(cases)
             points = max(points, size(cases(i)%gap%y))
@@ -112,8 +111,7 @@ contains
         type(status_t) :: status
         integer :: i, k, n
 
-        call read_ellipse_cases(folder, cases, status)
-        call fail_on_error(status)
+        call read_ellipse_cases(folder, cases)
         do n = 1, size(sides)
             groups = group_t()
             do i = 1, size(cases)
