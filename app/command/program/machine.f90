@@ -4,7 +4,7 @@ module faststrip_command_program_machine
     implicit none
     private
 
-    public :: cpu_name, compiler_name, compiler_flags
+    public :: cpu_name, compiler_name, compiler_flags, machine_words
 
 contains
 
@@ -55,4 +55,17 @@ contains
         end do
         text = trim(text)
     end function compiler_flags
+
+    !> All of that: flags, compiler and processor.
+    function machine_words() result(words)
+        character(len=:), allocatable :: words(:)
+
+        integer :: longest
+
+        longest = max(len(compiler_flags()), len(compiler_name()), len(cpu_name()))
+        allocate (character(len=longest) :: words(3))
+        words(1) = compiler_flags()
+        words(2) = compiler_name()
+        words(3) = cpu_name()
+    end function machine_words
 end module faststrip_command_program_machine

@@ -29,7 +29,7 @@ module faststrip_lab_extremes_noise
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
-    use faststrip_lab_extremes_rows, only: row_t, put_row, status_of
+    use faststrip_lab_extremes_rows, only: row_t, put_value, status_of
     use faststrip_command_settings_case_file, only: case_t
     use faststrip_lab_grid_example_cases, only: example_names, read_example
     use faststrip_command_program_console, only: fail_on_error, progress
@@ -187,16 +187,12 @@ contains
                         x_name='noise', x=levels(level), y_name='draws', y=real(n_draws, wp), &
                         judge='no noise')
             call status_of(base_status, row)
-            row%quantity = 'other_status'
-            row%value = other_status
-            call put_row(writer, row)
+            call put_value(writer, row, 'other_status', real(other_status, wp))
             if (.not. row%has_value) cycle
             do k = 1, size(figure_names)
                 call status_of(base_status, row)
-                row%quantity = figure_names(k)
-                row%value = change(k)
                 if (change(k) > steepest*levels(level)) row%status = 'jump'
-                call put_row(writer, row)
+                call put_value(writer, row, figure_names(k), change(k))
             end do
         end do
     end subroutine disturb
@@ -237,10 +233,8 @@ contains
                     judge='neighbours')
         do k = 1, size(figure_names)
             call status_of(worst, row)
-            row%quantity = figure_names(k)
-            row%value = jump(k)
             if (jump(k) > largest_jump .and. row%status == 'ok') row%status = 'jump'
-            call put_row(writer, row)
+            call put_value(writer, row, figure_names(k), jump(k))
         end do
     end subroutine step_load
 
@@ -295,10 +289,10 @@ contains
                     end do
                     call ieee_set_rounding_mode(before)
                     row = row_t(chapter='rounding', method='closed', x_name='b', x=b, &
-                                y_name='X', y=places(j), quantity='influence', judge='4 modes')
+                                y_name='X', y=places(j), judge='4 modes')
                     write (row%case, '(a, i0)') 'n = ', distances(i)
-                    row%value = (maxval(values) - minval(values))/abs(values(1))
-                    call put_row(writer, row)
+                    call put_value(writer, row, 'influence', &
+                                   (maxval(values) - minval(values))/abs(values(1)))
                 end do
             end do
         end do
@@ -338,9 +332,8 @@ contains
         if (.not. whole) row%method = 'solvers alone'
         call status_of(worst, row)
         do k = 1, size(figure_names)
-            row%quantity = figure_names(k)
-            row%value = (maxval(figures(k, :)) - minval(figures(k, :)))/units(k, 1)
-            call put_row(writer, row)
+            call put_value(writer, row, figure_names(k), &
+                           (maxval(figures(k, :)) - minval(figures(k, :)))/units(k, 1))
         end do
     end subroutine round_contact
 

@@ -13,7 +13,7 @@ module faststrip_lab_extremes_normal
     use faststrip_contact_method, only: workspace_t
     use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_grid_ellipse, only: make_ellipse, make_parabola
-    use faststrip_lab_extremes_rows, only: row_t, put_row, status_of
+    use faststrip_lab_extremes_rows, only: row_t, put_value, status_of
     use faststrip_command_program_console, only: progress
     implicit none
     private
@@ -66,10 +66,8 @@ contains
                 contact%methods%strips_per_patch = strip_counts(j)
                 call put_solution(work, contact, truth, row, writer)
                 if (.not. row%has_value) cycle
-                row%quantity = 'condition'
                 row%judge = 'dgecon'
-                row%value = condition(work%strips)
-                call put_row(writer, row)
+                call put_value(writer, row, 'condition', condition(work%strips))
             end do
         end do
     end subroutine many_strips
@@ -141,15 +139,10 @@ contains
 
         call solve_by_strips(work, contact, contact%methods%strips_per_patch, result, status)
         call status_of(status, row)
-        row%quantity = 'penetration_err'
-        row%value = abs(result%penetration/truth%penetration - 1.0_wp)
-        call put_row(writer, row)
-        row%quantity = 'pmax_err'
-        row%value = abs(result%pmax/truth%pmax - 1.0_wp)
-        call put_row(writer, row)
-        row%quantity = 'area_err'
-        row%value = abs(result%area/truth%area - 1.0_wp)
-        call put_row(writer, row)
+        call put_value(writer, row, 'penetration_err', &
+                       abs(result%penetration/truth%penetration - 1.0_wp))
+        call put_value(writer, row, 'pmax_err', abs(result%pmax/truth%pmax - 1.0_wp))
+        call put_value(writer, row, 'area_err', abs(result%area/truth%area - 1.0_wp))
     end subroutine put_solution
 
     !> Condition number (1-norm) of the influence coefficients between the strips of a solution, on

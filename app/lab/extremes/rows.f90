@@ -7,7 +7,7 @@ module faststrip_lab_extremes_rows
     implicit none
     private
 
-    public :: row_t, put_row_header, put_row, status_of
+    public :: row_t, put_row_header, put_row, put_value, status_of
 
     !> One row. Two numbers place it, a third is what was measured there.
     type :: row_t
@@ -61,6 +61,18 @@ contains
         end if
         call end_row(writer)
     end subroutine put_row
+
+    !> Write a row about a quantity.
+    subroutine put_value(writer, row, quantity, value)
+        type(csv_writer_t), intent(inout) :: writer  !! an open file
+        type(row_t), intent(inout) :: row            !! all else
+        character(len=*), intent(in) :: quantity     !! what was measured
+        real(wp), intent(in) :: value                !! without meaning if the row has none
+
+        row%quantity = quantity
+        row%value = value
+        call put_row(writer, row)
+    end subroutine put_value
 
     !> Take over how a call ended.
     subroutine status_of(status, row)

@@ -13,7 +13,7 @@ module faststrip_lab_extremes_tangential
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_lab_grid_ellipse, only: make_ellipse
-    use faststrip_lab_extremes_rows, only: row_t, put_row, status_of
+    use faststrip_lab_extremes_rows, only: row_t, put_row, put_value, status_of
     use faststrip_command_program_console, only: progress
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
@@ -112,17 +112,18 @@ contains
         contact%creepage = creepage_of(motion, row%x)
         call find(here)
         call status_of(status, row)
-        call put('force', hypot(here%fx, here%fy)/unit)
-        call put('negative_power', max(0.0_wp, -here%friction_power)/unit)
+        call put_value(writer, row, 'force', hypot(here%fx, here%fy)/unit)
+        call put_value(writer, row, 'negative_power', max(0.0_wp, -here%friction_power)/unit)
         if (.not. row%has_value) return
         contact%creepage = creepage_of(motion, -row%x)
         call find(opposite)
         call status_of(status, row)
-        call put('oddness', hypot(here%fx + opposite%fx, here%fy + opposite%fy)/unit)
+        call put_value(writer, row, 'oddness', &
+                       hypot(here%fx + opposite%fx, here%fy + opposite%fy)/unit)
         contact%creepage = creepage_of(motion, (1.0_wp + small)*max(row%x, small**2))
         call find(next)
         call status_of(status, row)
-        call put('step', hypot(here%fx - next%fx, here%fy - next%fy)/unit)
+        call put_value(writer, row, 'step', hypot(here%fx - next%fx, here%fy - next%fy)/unit)
 
     contains
 
@@ -134,15 +135,6 @@ contains
             call solve_contact_forces(workspace, contact, result, status)
             forces = result%tangential
         end subroutine find
-
-        subroutine put(quantity, value)
-            character(len=*), intent(in) :: quantity
-            real(wp), intent(in) :: value
-
-            row%quantity = quantity
-            row%value = value
-            call put_row(writer, row)
-        end subroutine put
     end subroutine one_motion
 
     pure type(creepage_t) function creepage_of(motion, size_)

@@ -4,15 +4,13 @@ module faststrip_lab_forces_reference
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, st_ok
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_material, only: normal_compliance
     use faststrip_contact_method, only: workspace_t, contact_result_t
-    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       set_norm_gap, norm_solve
+    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            edges_of_norm
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
-    use faststrip_lab_pressures, only: solve_pressures
+    use faststrip_lab_pressures, only: solve_pressures, solve_by_norm
     use faststrip_lab_forces_contacts, only: force_contact_t, draw_force_creepages
     use faststrip_lab_random_force_gaps, only: force_families
     use faststrip_lab_forces_record, only: force_record_t, most_states
@@ -88,11 +86,7 @@ contains
         options%dy = sides(2)
         options%two_levels = .false.
         options%tolerance = norm_tolerance
-        call reserve_norm(grid%norm, size(contact%gap%y), status)
-        if (.not. is_error(status)) call set_norm_gap(grid%norm, contact%gap, status)
-        if (.not. is_error(status)) &
-            call norm_solve(grid%norm, normal_compliance(contact%material), contact%load, options, &
-                            norm, status, work%strips%strips)
+        call solve_by_norm(grid%norm, contact, options, norm, status, work%strips%strips)
         has_no_pressures = is_left_out(status, norm, record)
     end function has_no_pressures
 

@@ -6,12 +6,11 @@
 module faststrip_lab_fuzz_norm_judge
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_base_material, only: normal_compliance
     use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_normal_strips, only: contact_strips_t
-    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       release_norm, set_norm_curve, norm_solve_demand
+    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, release_norm
+    use faststrip_lab_pressures, only: solve_by_norm
     use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_norm_depth, &
                                          judge_norm_pmax, judge_norm_area
@@ -50,11 +49,7 @@ contains
         options%dx = 2.0_wp*maxval(strips%half_length(:strips%n))/elements_along
         options%dy = narrowest/elements_across
         options%most_elements = most_elements
-        call reserve_norm(workspace, curve%n, status)
-        if (.not. is_error(status)) call set_norm_curve(workspace, curve, status)
-        if (.not. is_error(status)) &
-            call norm_solve_demand(workspace, normal_compliance(case%material), case%demand_t, &
-                                   options, norm, status, strips)
+        call solve_by_norm(workspace, case, options, norm, status, strips)
         if (.not. is_error(status) .and. workspace%is_estimated) then
             depth = verdict%result%penetration - curve%h_lowest
             norm_depth = norm%penetration - curve%h_lowest

@@ -1,10 +1,10 @@
 !> The tables and the CSV rows of `faststrip-lab fuzz`.
 module faststrip_lab_fuzz_tables
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, status_word
+    use faststrip_base_status, only: status_t, status_word
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row, csv_table_t, &
-                                   read_csv, require_column, cell_text, cell_number, put_cells
+                                   read_csv, read_cell, put_cells
     use faststrip_command_program_console, only: say, fail, fail_on_error, exit_bad_input
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, all_families
     use faststrip_lab_fuzz_judges, only: verdict_t, is_broken, broken_judges, n_judges, &
@@ -13,13 +13,6 @@ module faststrip_lab_fuzz_tables
     private
 
     public :: print_verdicts, read_verdicts, put_fuzz_header, put_fuzz_row
-
-    !> One line of the table: how often a family ended with a status.
-    type :: tally_t
-        integer :: family = 0
-        integer :: code = 0
-        integer :: n = 0
-    end type tally_t
 
 contains
 
@@ -89,49 +82,34 @@ contains
         type(verdict_t), allocatable, intent(out) :: verdicts(:)
 
         integer, parameter :: largest_code = 200
-        character(len=*), parameter :: names(5) = [character(len=10) :: 'case', 'family', &
-            'status', 'message', 'time_us']
         type(csv_table_t) :: table
         type(status_t) :: status
-        integer :: i, row, code, column(size(names)), judge_column(n_judges)
-        real(wp) :: value
+        character(len=:), allocatable :: name, word, message
+        integer :: i, row, code
 
         call read_csv(path, table, status)
         call fail_on_error(status)
-        do i = 1, size(names)
-            call require_column(table, trim(names(i)), column(i), status)
-            call fail_on_error(status)
-        end do
-        do i = 1, n_judges
-            call require_column(table, trim(judge_names(i)), judge_column(i), status)
-            call fail_on_error(status)
-        end do
         if (table%n_rows == 0) call fail(exit_bad_input, 'no rows (' // path // ')')
-        allocate (numbers(table%n_rows), family(table%n_rows), source=0)
-        allocate (verdicts(table%n_rows))
+        allocate (numbers(table%n_rows), family(table%n_rows), verdicts(table%n_rows))
         do row = 1, table%n_rows
-            call cell_number(table, row, column(1), value, status)
-            call fail_on_error(status)
-            numbers(row) = nint(value)
-            do i = 1, size(all_families)
-                if (trim(all_families(i)) == cell_text(table, row, column(2))) family(row) = i
+            call read_cell(table, row, 'case', numbers(row), status)
+            call read_cell(table, row, 'family', name, status)
+            call read_cell(table, row, 'status', word, status)
+            call read_cell(table, row, 'message', message, status)
+            call read_cell(table, row, 'time_us', verdicts(row)%time_us, status)
+            do i = 1, n_judges
+                call read_cell(table, row, trim(judge_names(i)), verdicts(row)%badness(i), status)
             end do
+            call fail_on_error(status)
+            family(row) = findloc(all_families == name, .true., dim=1)
             do code = 0, largest_code
-                if (trim(status_word(code)) == cell_text(table, row, column(3))) exit
+                if (status_word(code) == word) exit
             end do
             if (family(row) == 0 .or. code > largest_code) &
                 call fail(exit_bad_input, 'no row of a fuzz run: ' // integer_text(row) // ' (' &
                           // path // ')')
-            associate (verdict => verdicts(row))
-                verdict%status%code = code
-                verdict%status%message = cell_text(table, row, column(4))
-                call cell_number(table, row, column(5), verdict%time_us, status)
-                do i = 1, n_judges
-                    if (is_error(status)) exit
-                    call cell_number(table, row, judge_column(i), verdict%badness(i), status)
-                end do
-            end associate
-            call fail_on_error(status)
+            verdicts(row)%status%code = code
+            verdicts(row)%status%message = message
         end do
     end subroutine read_verdicts
 
@@ -141,31 +119,18 @@ contains
         type(verdict_t), intent(in) :: verdicts(:)
         logical, intent(in) :: is_bad(:) ! did a case fail a check?
 
-        type(tally_t), allocatable :: tally(:)
-        integer :: i, j, f
+        integer :: f
 
-        allocate (tally(0))
-        do i = 1, size(verdicts)
-            do j = 1, size(tally)
-                if (tally(j)%family == family(i) &
-                    .and. tally(j)%code == verdicts(i)%status%code) exit
-            end do
-            if (j > size(tally)) tally = [tally, tally_t(family(i), verdicts(i)%status%code, 0)]
-            tally(j)%n = tally(j)%n + 1
-        end do
         call say('family        status                    cases    share   failed checks')
-        call print_rows('all', tally, verdicts, is_bad, &
-                        [(.true., i=1, size(verdicts))])
+        call print_rows('all', verdicts, is_bad, family > 0)
         do f = 1, size(all_families)
-            call print_rows(all_families(f), pack(tally, tally%family == f), verdicts, is_bad, &
-                            family == f)
+            call print_rows(all_families(f), verdicts, is_bad, family == f)
         end do
     end subroutine print_table
 
     !> The lines of one family, or of all.
-    subroutine print_rows(name, tally, verdicts, is_bad, counts)
+    subroutine print_rows(name, verdicts, is_bad, counts)
         character(len=*), intent(in) :: name
-        type(tally_t), intent(in) :: tally(:)
         type(verdict_t), intent(in) :: verdicts(:)
         logical, intent(in) :: is_bad(:)
         logical, intent(in) :: counts(:) ! which cases are of the family
@@ -174,10 +139,9 @@ contains
         character(len=12) :: family_name
         integer :: code, n
 
-        if (size(tally) == 0) return
         family_name = name
-        do code = 0, maxval(tally%code)
-            n = sum(tally%n, tally%code == code)
+        do code = 0, maxval(verdicts%status%code)
+            n = count(counts .and. verdicts%status%code == code)
             if (n == 0) cycle
             write (line, '(a, 2x, a, i9, f8.2, a, i9)') family_name, status_word(code), n, &
                 100.0_wp*n/count(counts), ' %', &

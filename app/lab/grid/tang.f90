@@ -9,10 +9,10 @@ module faststrip_lab_grid_tang
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_material, only: normal_compliance, combined_shear_modulus
+    use faststrip_base_material, only: combined_shear_modulus
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
-    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       release_norm, set_norm_gap, norm_solve_demand
+    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, release_norm
+    use faststrip_lab_pressures, only: solve_by_norm
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
@@ -22,7 +22,7 @@ module faststrip_lab_grid_tang
                                                spread_names, cpu_columns
     use faststrip_command_program_console, only: fail_on_error, note, progress, begin_table, &
                                                  end_table
-    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_command_program_machine, only: machine_words
     implicit none
     private
 
@@ -104,12 +104,7 @@ contains
         integer :: k, round
 
         dx = sqrt(case%truth%area/elements)
-        call reserve_norm(norm, size(case%gap%y), status)
-        call fail_on_error(status)
-        call set_norm_gap(norm, case%gap, status)
-        call fail_on_error(status)
-        call norm_solve_demand(norm, normal_compliance(case%material), case%demand_t, &
-                               norm_options_t(dx=dx, dy=dx), normal, status)
+        call solve_by_norm(norm, case, norm_options_t(dx=dx, dy=dx), normal, status)
         call fail_on_error(status)
         options%edges = edges_of_norm
         do k = 1, size(creepages)
@@ -165,9 +160,7 @@ contains
             call put_cell(writer, rounds)
             call put_cells(writer, [runs(k)%result%stick_fraction, runs(k)%result%fx, &
                                     runs(k)%result%fy, runs(k)%result%mz])
-            call put_cell(writer, compiler_flags())
-            call put_cell(writer, compiler_name())
-            call put_cell(writer, cpu_name())
+            call put_cells(writer, machine_words())
             call end_row(writer)
         end do
     end subroutine put_runs

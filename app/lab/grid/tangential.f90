@@ -11,7 +11,7 @@ module faststrip_lab_grid_tangential
     use faststrip_command_program_clock, only: cpu_microseconds, median, spread_of, spread_text, &
                                                spread_names, cpu_columns
     use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
-    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_command_program_machine, only: machine_words
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: method_name_length
     use faststrip_contact_method, only: workspace_t, contact_result_t
@@ -153,9 +153,7 @@ contains
             call put_cells(writer, times%forces(1, m)/[1.0_wp, 1.0e-3_wp*elements, &
                                                        times%forces(1, measured())])
             call put_cell(writer, times%field(m), is_known=tangential_methods(m)%gives_elements)
-            call put_cell(writer, compiler_flags())
-            call put_cell(writer, compiler_name())
-            call put_cell(writer, cpu_name())
+            call put_cells(writer, machine_words())
             call put_cells(writer, times%forces(:, m))
             call end_row(writer)
         end do

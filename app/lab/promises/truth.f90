@@ -15,11 +15,10 @@ module faststrip_lab_promises_truth
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, st_ok
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_material, only: normal_compliance
     use faststrip_contact_case, only: contact_case_t
     use faststrip_kalker_grid, only: contact_grid_t
-    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       set_norm_gap, norm_solve
+    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t
+    use faststrip_lab_pressures, only: solve_by_norm
     use faststrip_kalker_normal_rows, only: rows_as_strips, count_rows
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            edges_of_norm
@@ -145,11 +144,7 @@ contains
         options%tolerance = norm_tolerance
         options%dx = sides(1)
         options%dy = sides(2)
-        call reserve_norm(level%norm, size(case%gap%y), status)
-        if (.not. is_error(status)) call set_norm_gap(level%norm, case%gap, status)
-        if (.not. is_error(status)) &
-            call norm_solve(level%norm, normal_compliance(case%material), case%load, options, &
-                            level%normal, status)
+        call solve_by_norm(level%norm, case, options, level%normal, status)
     end subroutine solve_normal
 
     !> All figures for the creepages of a contact.

@@ -17,13 +17,6 @@ module faststrip_lab_random_field_gaps
 
     public :: make_field_case, field_family_names
 
-    integer, parameter :: family_cliff = 1, family_fill = 2, family_noise = 3, &
-                          family_exponential = 4, family_tanh = 5, family_ripples = 6, &
-                          family_neck = 7, family_slender = 8, family_worn = 9, &
-                          family_contacts = 10, family_corner = 11, family_coarse = 12, &
-                          family_fine = 13, family_uneven = 14, family_offset = 15, &
-                          family_metres = 16
-
     !> What the families are called.
     character(len=12), parameter :: field_family_names(16) = [character(len=12) :: &
         'cliff', 'fill', 'noise', 'exponential', 'tanh', 'ripples', 'neck', 'slender', 'worn', &
@@ -79,7 +72,7 @@ contains
 
         base%a0 = 0.5_wp/log_uniform(random, 50.0_wp, 2000.0_wp)
         base%b0 = base%a0*log_uniform(random, 0.1_wp, 20.0_wp)
-        if (family == family_slender) then
+        if (field_family_names(family) == 'slender') then
             base%b0 = base%a0*log_uniform(random, 1.0e-4_wp, 1.0e-2_wp)
             if (chance(random, 0.5_wp)) base%b0 = base%a0*log_uniform(random, 1.0e2_wp, 1.0e4_wp)
         end if
@@ -102,23 +95,23 @@ contains
         from = -base%b*uniform(random, 2.0_wp, 6.0_wp)
         to = base%b*uniform(random, 2.0_wp, 6.0_wp)
         if (chance(random, 0.3_wp)) to = -from
-        select case (family)
-        case (family_cliff, family_fill)
+        select case (trim(field_family_names(family)))
+        case ('cliff', 'fill')
             if (chance(random, 0.3_wp)) to = to + uniform(random, 5.0_wp, 100.0_wp)
             step = log_uniform(random, 0.01_wp, 1.0_wp)
             ! A contact that has points.
             step = max(min(step, base%b/5.0_wp), (to - from)/most_points)
             n = 1 + nint((to - from)/step)
-        case (family_coarse)
+        case ('coarse')
             n = 4 + pick(random, 26)
-        case (family_fine)
+        case ('fine')
             n = nint(log_uniform(random, 5.0e3_wp, 5.0e4_wp))
         case default
             n = nint(log_uniform(random, 60.0_wp, 2000.0_wp))
         end select
         allocate (gap%y(n), gap%h(n), gap%inv2r(n), width(n))
         width = 1.0_wp
-        if (family == family_uneven) then
+        if (field_family_names(family) == 'uneven') then
             do i = 1, n
                 width(i) = log_uniform(random, 1.0e-3_wp, 1.0_wp)
             end do
@@ -137,37 +130,37 @@ contains
         type(fuzz_case_t), intent(inout) :: case
 
         associate (y => case%gap%y, h => case%gap%h, inv2r => case%gap%inv2r)
-            select case (case%family)
-            case (family_cliff, family_fill)
-                call add_walls(random, base, case%family == family_fill, case%gap)
-            case (family_noise)
+            select case (trim(field_family_names(case%family)))
+            case ('cliff', 'fill')
+                call add_walls(random, base, field_family_names(case%family) == 'fill', case%gap)
+            case ('noise')
                 call add_noise(random, log_uniform(random, 3.0e-5_wp, 3.0e-3_wp), h)
-            case (family_exponential)
+            case ('exponential')
                 inv2r = base%a0*exp(uniform(random, -1.5_wp, 1.5_wp)*y/base%b)
-            case (family_tanh)
+            case ('tanh')
                 inv2r = base%a0*exp(0.5_wp*log(log_uniform(random, 0.05_wp, 20.0_wp)) &
                                     *(1.0_wp + tanh((y/base%b - uniform(random, -1.0_wp, 1.0_wp)) &
                                                     /log_uniform(random, 0.03_wp, 1.0_wp))))
-            case (family_ripples)
+            case ('ripples')
                 h = h + log_uniform(random, 1.0e-5_wp, 5.0e-3_wp) &
                     *sin(2.0_wp*pi*y/log_uniform(random, 0.2_wp, 5.0_wp) &
                          + uniform(random, 0.0_wp, 2.0_wp*pi))
-            case (family_neck)
+            case ('neck')
                 ! A hump in the middle, up to twice as high as the contact is deep.
                 h = h + base%depth*uniform(random, 0.0_wp, 2.0_wp) &
                     *exp(-((y/base%b - uniform(random, -0.5_wp, 0.5_wp)) &
                            /log_uniform(random, 0.05_wp, 0.5_wp))**2)
-            case (family_worn)
+            case ('worn')
                 call add_wear(random, base, case%gap)
-            case (family_contacts)
+            case ('contacts')
                 call add_contacts(random, base, case%gap)
-            case (family_corner)
+            case ('corner')
                 call add_corners(random, base, case%gap)
-            case (family_offset)
+            case ('offset')
                 h = h + uniform(random, 0.0_wp, 10.0_wp)
                 y = y + log_uniform(random, 10.0_wp, 1.0e4_wp)*merge(1.0_wp, -1.0_wp, &
                                                                     chance(random, 0.5_wp))
-            case (family_metres)
+            case ('metres')
                 call change_unit(random, case)
             end select
         end associate

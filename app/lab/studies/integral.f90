@@ -9,8 +9,7 @@ module faststrip_lab_studies_integral
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
-    use faststrip_files_csv, only: csv_writer_t, open_csv, put_header, put_cell, put_cells, &
-                                   end_row
+    use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_tables_polynomials, only: basis_monomial
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_polynomial, only: published_coefficients, table_last_distance
@@ -21,8 +20,8 @@ module faststrip_lab_studies_integral
     use faststrip_lab_studies_exact_influence, only: qp
     use faststrip_lab_studies_polynomials, only: power_of_ten_influence, power_of_ten_row
     use faststrip_command_program_clock, only: median, spread_of
-    use faststrip_command_program_console, only: fail_on_error, put_origin, end_table
-    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_command_program_console, only: fail_on_error, begin_table, end_table
+    use faststrip_command_program_machine, only: machine_words
     implicit none
     private
 
@@ -76,14 +75,12 @@ contains
         type(coefficients_t) :: tables(n_tables)
         type(cost_t), allocatable :: cost(:)
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         real(wp), dimension(0:last, n_arguments) :: values
         real(qp) :: exact(0:last, n_judged)
         real(wp) :: b(n_arguments), check
         integer :: method, i, j, round, at, first
 
-        call open_csv(writer, path, status)
-        call fail_on_error(status)
+        call begin_table(writer, path)
         call make_tables(tables)
         allocate (cost(n_methods*size(n_list)*size(b_list) + closed*size(b_list)))
         check = 0.0_wp
@@ -301,14 +298,11 @@ contains
         type(csv_writer_t), intent(inout) :: writer
         type(cost_t), intent(in) :: cost(:)
 
-        character(len=:), allocatable :: cpu, flags, compiler
+        character(len=:), allocatable :: machine(:)
         real(wp) :: ns(3)
         integer :: i
 
-        cpu = cpu_name()
-        compiler = compiler_name()
-        flags = compiler_flags()
-        call put_origin(writer)
+        machine = machine_words()
         call put_header(writer, [character(len=8) :: 'method', 'n', 'b', 'loop', 'ns', 'ratio', &
                                  'rel_err', 'flags', 'compiler', 'cpu', 'ns_p95', 'ns_worst'])
         do i = 1, size(cost)
@@ -322,9 +316,7 @@ contains
                 call put_cell(writer, median(own/base(:size(own))))
             end associate
             call put_cell(writer, cost(i)%rel_err)
-            call put_cell(writer, flags)
-            call put_cell(writer, compiler)
-            call put_cell(writer, cpu)
+            call put_cells(writer, machine)
             call put_cells(writer, ns(2:3))
             call end_row(writer)
         end do

@@ -21,7 +21,7 @@ module faststrip_lab_studies_reference
     use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
                                                spread_text, spread_names, cpu_columns
     use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
-    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_command_program_machine, only: machine_words
     implicit none
     private
 
@@ -137,9 +137,7 @@ contains
                     call put_cells(writer, [times%iterations, times%convolutions])
                     call put_cell(writer, dx)
                     call put_cell(writer, times%grid)
-                    call put_cell(writer, compiler_flags())
-                    call put_cell(writer, compiler_name())
-                    call put_cell(writer, cpu_name())
+                    call put_cells(writer, machine_words())
                     call put_cell(writer, bench%cases(i)%name)
                     call put_cell(writer, times%runs)
                     call put_cells(writer, times%us)

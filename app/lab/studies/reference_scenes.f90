@@ -6,16 +6,14 @@ module faststrip_lab_studies_reference_scenes
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
                                    end_row
-    use faststrip_base_material, only: normal_compliance
-    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       set_norm_gap, norm_solve
+    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve
     use faststrip_command_program_console, only: note, begin_table, end_table
     use faststrip_contact_method, only: workspace_t, contact_result_t
-    use faststrip_lab_pressures, only: solve_pressures
+    use faststrip_lab_pressures, only: solve_pressures, solve_by_norm
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text, &
                                                  option_integer
     use faststrip_lab_random_reference_gaps, only: reference_scene_t, make_reference_scene, &
@@ -119,12 +117,7 @@ contains
         type(norm_workspace_t) :: norm
         type(tang_workspace_t) :: tang
 
-        call reserve_norm(norm, size(scene%gap%y), status)
-        if (is_error(status)) return
-        call set_norm_gap(norm, scene%gap, status)
-        if (is_error(status)) return
-        call norm_solve(norm, normal_compliance(scene%material), scene%load, &
-                        norm_options_t(dx=dx, dy=dy), figures%normal, status, strips)
+        call solve_by_norm(norm, scene, norm_options_t(dx=dx, dy=dy), figures%normal, status, strips)
         if (is_error(status)) return
         call tang_solve(tang, norm%grid, scene%material, scene%mu, scene%creepage, &
                         tang_options_t(), figures%forces, status)

@@ -9,9 +9,8 @@ module faststrip_lab_studies_reference_tang
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_cell, put_cells, end_row
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_material, only: normal_compliance
-    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
-                                       set_norm_gap, norm_solve_demand
+    use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t
+    use faststrip_lab_pressures, only: solve_by_norm
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
@@ -21,7 +20,7 @@ module faststrip_lab_studies_reference_tang
     use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
                                                spread_text, spread_names
     use faststrip_command_program_console, only: fail_on_error, note
-    use faststrip_command_program_machine, only: cpu_name, compiler_name, compiler_flags
+    use faststrip_command_program_machine, only: machine_words
     implicit none
     private
 
@@ -101,12 +100,7 @@ contains
         type(status_t) :: status
         integer :: start
 
-        call reserve_norm(norm, size(case%gap%y), status)
-        call fail_on_error(status)
-        call set_norm_gap(norm, case%gap, status)
-        call fail_on_error(status)
-        call norm_solve_demand(norm, normal_compliance(case%material), case%demand_t, &
-                               norm_options_t(dx=dx, dy=dx), normal, status)
+        call solve_by_norm(norm, case, norm_options_t(dx=dx, dy=dx), normal, status)
         call fail_on_error(status)
         do start = 1, size(starts)
             call run_again(case, norm%grid, start, budget_us, runs)
@@ -195,9 +189,7 @@ contains
         call put_cells(writer, [figures(1), median(runs%products(1:runs%n)), &
                                 median(runs%products(1:runs%n)), grid%dx])
         call put_cell(writer, grid%nx*grid%ny)
-        call put_cell(writer, compiler_flags())
-        call put_cell(writer, compiler_name())
-        call put_cell(writer, cpu_name())
+        call put_cells(writer, machine_words())
         call put_cell(writer, name)
         call put_cell(writer, runs%n)
         call put_cells(writer, figures)

@@ -4,9 +4,9 @@ module faststrip_lab_studies_rolling
     use faststrip_base_status, only: status_t, is_error, status_word, number_text
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
                                    put_empty_cells, end_row
-    use faststrip_base_material, only: material_t, normal_compliance
-    use faststrip_kalker_normal, only: norm_workspace_t, norm_options_t, reserve_norm, &
-                                       set_norm_gap, norm_solve
+    use faststrip_base_material, only: material_t
+    use faststrip_kalker_normal, only: norm_workspace_t, norm_options_t
+    use faststrip_lab_pressures, only: solve_by_norm
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
@@ -68,24 +68,15 @@ contains
         type(tang_workspace_t) :: tang
         type(group_t) :: groups(size(schemes))
         type(status_t) :: status
-        integer :: i, k, points, side
+        integer :: i, k, side
 
         call read_bench_cases(folder, cases, signs)
-        points = 0
-        do i = 1, size(cases)
-            points = max(points, size(cases(i)%gap%y))
-        end do
-        call reserve_norm(norm, points, status)
-        call fail_on_error(status)
         do side = 1, size(sides)
             groups = group_t()
             norm_options%dx = sides(side)
             norm_options%dy = sides(side)
             do i = 1, size(cases)
-                call set_norm_gap(norm, cases(i)%gap, status)
-                if (.not. is_error(status)) &
-                    call norm_solve(norm, normal_compliance(material_t()), cases(i)%load, &
-                                    norm_options, normal, status)
+                call solve_by_norm(norm, cases(i), norm_options, normal, status)
                 call fail_on_error(status)
                 do k = 1, size(schemes)
                     call compare('paper_' // signs, cases(i), cases(i)%name, edges_of_norm, k, &
