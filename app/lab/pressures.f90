@@ -10,12 +10,13 @@ module faststrip_lab_pressures
     use faststrip_geometry_gap, only: check_gap
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        set_norm_gap, norm_solve_demand
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t
     implicit none
     private
 
-    public :: solve_pressures, solve_by_strips, solve_by_norm
+    public :: solve_pressures, solve_by_strips, solve_by_norm, largest_patch
 
 contains
 
@@ -71,4 +72,20 @@ contains
             call norm_solve_demand(norm, normal_compliance(case%material), case%demand_t, options, &
                                    result, status, strips)
     end subroutine solve_by_norm
+
+    !> The ellipse of the patch that bears most of the load.
+    pure type(patch_ellipse_t) function largest_patch(strips) result(largest)
+        type(contact_strips_t), intent(in) :: strips !! a solution
+
+        type(patch_ellipse_t) :: ellipse
+        integer :: first, last
+
+        last = 0
+        do while (last < strips%n)
+            first = last + 1
+            last = patch_end(strips, first)
+            ellipse = patch_ellipse(strips, first, last)
+            if (ellipse%load > largest%load) largest = ellipse
+        end do
+    end function largest_patch
 end module faststrip_lab_pressures

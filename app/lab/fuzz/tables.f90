@@ -90,7 +90,8 @@ contains
         call read_csv(path, table, status)
         call fail_on_error(status)
         if (table%n_rows == 0) call fail(exit_bad_input, 'no rows (' // path // ')')
-        allocate (numbers(table%n_rows), family(table%n_rows), verdicts(table%n_rows))
+        allocate (numbers(table%n_rows), family(table%n_rows), source=0)
+        allocate (verdicts(table%n_rows))
         do row = 1, table%n_rows
             call read_cell(table, row, 'case', numbers(row), status)
             call read_cell(table, row, 'family', name, status)

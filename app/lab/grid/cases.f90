@@ -18,6 +18,7 @@ module faststrip_lab_grid_cases
     private
 
     public :: bench_case_t, read_bench_cases, read_ellipse_cases, read_scene_cases, read_rows
+    public :: scattered
 
     !> One contact and what a reference finds for it.
     type, extends(contact_case_t) :: bench_case_t
@@ -156,6 +157,15 @@ contains
             end associate
         end do
     end subroutine read_scene_cases
+
+    !> Which of n contacts is the k-th where time may run out: scattered, so that what is left out is
+    !> no end of a sweep.
+    pure integer function scattered(k, n)
+        integer, intent(in) :: k, n !! 1 to n; contacts
+
+        scattered = k
+        if (modulo(n, 7) /= 0) scattered = 1 + modulo(7*(k - 1), n)
+    end function scattered
 
     !> The curvatures under which a load makes a given ellipse, and the penetration
     !> (`faststrip_normal_simple_hertz`, read backwards).

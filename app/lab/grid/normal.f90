@@ -12,14 +12,7 @@ module faststrip_lab_grid_normal
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_base_material, only: material_t, normal_compliance
-    use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
-    use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
     use faststrip_numerics_lu, only: lu_factor, lu_solve
-    use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          standard_inclination
-    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
-                                                find_rigid_contact
-    use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve_gap
@@ -29,7 +22,9 @@ module faststrip_lab_grid_normal
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_fastsim, only: fastsim_solve
-    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
+    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, scattered
+    use faststrip_lab_grid_column_times, only: column_ns, centre, tip, centre_gradient, tip_gradient
+    use faststrip_lab_grid_paper_gaps, only: paper_profiles_t, make_paper_profiles, gap_of_shift
     use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
                                                spread_text, spread_names, cpu_columns
     use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
@@ -37,7 +32,7 @@ module faststrip_lab_grid_normal
     implicit none
     private
 
-    public :: bench_normal, bench_normal_most_strips, gap_of_shift
+    public :: bench_normal, bench_normal_most_strips
 
     !> The largest number of strips that is measured.
     integer, parameter :: bench_normal_most_strips = 400
@@ -108,20 +103,17 @@ contains
         character(len=*), intent(in) :: folder
         type(bench_t), intent(out) :: bench
 
-        type(profile_t) :: wheel, rail
+        type(paper_profiles_t) :: profiles
         type(status_t) :: status
         integer :: i, points
 
         call read_bench_cases(folder, bench%cases)
-        call make_wheel_profile('s1002', wheel, status)
-        call fail_on_error(status)
-        call make_rail_profile('uic60', standard_inclination, rail, status)
-        call fail_on_error(status)
+        call make_paper_profiles(profiles)
         allocate (bench%before(size(bench%cases)), bench%after(size(bench%cases)))
         points = 0
         do i = 1, size(bench%cases)
-            call gap_of_shift(wheel, rail, bench%cases(i)%shift, bench%before(i))
-            call gap_of_shift(wheel, rail, bench%cases(i)%shift + shift_step, bench%after(i))
+            call gap_of_shift(profiles, bench%cases(i)%shift, bench%before(i))
+            call gap_of_shift(profiles, bench%cases(i)%shift + shift_step, bench%after(i))
             points = max(points, size(bench%cases(i)%gap%y), size(bench%before(i)%y), &
                          size(bench%after(i)%y))
         end do
@@ -131,22 +123,6 @@ contains
         call reserve_strip_workspace(bench%workspace, i, points, status)
         call fail_on_error(status)
     end subroutine prepare
-
-    !> The gap of a wheelset that was moved sideways.
-    subroutine gap_of_shift(wheel, rail, shift, gap)
-        type(profile_t), intent(in) :: wheel, rail !! the profiles
-        real(wp), intent(in) :: shift              !! lateral shift, mm
-        type(gap_t), intent(out) :: gap            !! at the rigid contact, mm
-
-        type(rigid_contact_t) :: touching
-        type(status_t) :: status
-
-        call find_rigid_contact(wheel, rail, wheelset_t(), track_t(), shift, touching, status)
-        call fail_on_error(status)
-        call make_gap(wheel, rail, wheelset_t(), touching, standard_gap_step, standard_gap_height, &
-                      gap, status)
-        call fail_on_error(status)
-    end subroutine gap_of_shift
 
     !> All contacts and starts with one number of strips, as far as the time goes.
     subroutine measure_strips(bench, n, budget_us, writer)
@@ -169,9 +145,7 @@ contains
         share = budget_us/(size(starts)*size(bench%cases))
         call system_clock(begin)
         do k = 1, size(bench%cases)
-            ! Scattered, so that what the time leaves out is no end of the sweep.
-            i = 1 + modulo(7*(k - 1), size(bench%cases))
-            if (modulo(size(bench%cases), 7) == 0) i = k
+            i = scattered(k, size(bench%cases))
             fastsim_us = fastsim_time(bench, i)
             if (fastsim_us > 0.0_wp) then
                 n_fastsim = n_fastsim + 1
@@ -187,8 +161,8 @@ contains
                 us(counts(start), start) = times%us(1)
                 names(counts(start), start) = bench%cases(i)%name
                 if (entry_ns == 0.0_wp) then
-                    entry_ns = entry_time(bench%strips, .true.)
-                    value_ns = entry_time(bench%strips, .false.)
+                    entry_ns = entry_time(bench%strips, centre_gradient, tip_gradient)
+                    value_ns = entry_time(bench%strips, centre, tip)
                     operation_ns = operation_time(2*bench%strips%n + 3)
                 end if
                 call put_cell(writer, trim(starts(start)))
@@ -299,43 +273,21 @@ contains
         times%operations = median(operations(:times%runs))
     end subroutine measure_start
 
-    !> Time of one influence coefficient, ns: all columns of a solved contact, on the centre lines
-    !> and at the tips, as one iteration needs them, with derivatives or without.
-    real(wp) function entry_time(strips, with_derivatives)
+    !> Time of one influence coefficient of a solved contact, ns: on the centre lines and at the tips
+    !> as one iteration needs them.
+    real(wp) function entry_time(strips, of_centre, of_tip)
         type(contact_strips_t), intent(in) :: strips
-        logical, intent(in) :: with_derivatives
+        integer, intent(in) :: of_centre, of_tip ! with derivatives or without
 
-        integer, parameter :: runs = 7, fewest_entries = 5000
-        real(wp), dimension(strips%n) :: y, value, d_x, d_half_length
-        real(wp) :: us(runs), from
-        integer :: run, s, i, repetitions
+        integer, parameter :: runs = 7, fewest_entries = 2500
+        real(wp) :: ns(runs)
+        integer :: run
 
-        associate (left => strips%y_left, right => strips%y_right, &
-                   half_length => strips%half_length(:strips%n))
-            y = 0.5_wp*(left(:strips%n) + right(:strips%n))
-            repetitions = 1 + fewest_entries/(2*strips%n**2)
-            do run = 1, runs
-                from = cpu_microseconds()
-                do i = 1, repetitions
-                    do s = 1, strips%n
-                        if (with_derivatives) then
-                            call center_influence_column_gradient(half_length(s), left(s), &
-                                                                  right(s), y, value, d_half_length)
-                            call tip_influence_column_gradient(half_length(s), left(s), right(s), &
-                                                               half_length, y, value, d_x, &
-                                                               d_half_length)
-                        else
-                            call center_influence_column(half_length(s), left(s), right(s), y, &
-                                                         value)
-                            call tip_influence_column(half_length(s), left(s), right(s), &
-                                                      half_length, y, value)
-                        end if
-                    end do
-                end do
-                us(run) = (cpu_microseconds() - from)/repetitions
-            end do
-        end associate
-        entry_time = 1.0e3_wp*median(us)/(2.0_wp*strips%n**2)
+        do run = 1, runs
+            ns(run) = 0.5_wp*(column_ns(of_centre, strips, fewest_entries) &
+                              + column_ns(of_tip, strips, fewest_entries))
+        end do
+        entry_time = median(ns)
     end function entry_time
 
     !> Time of one operation in the factorisation and solution of m equations, ns.

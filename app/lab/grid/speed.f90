@@ -11,10 +11,9 @@ module faststrip_lab_grid_speed
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, end_row
     use faststrip_contact_methods, only: tangential_none
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
-    use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
     use faststrip_normal_types, only: normal_result_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
+    use faststrip_lab_grid_column_times, only: column_ns, column_names
     use faststrip_lab_grid_method_list, only: method_entry_t, read_method_list
     use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_studies_speed_states, only: states_t, read_states, time_states, state_methods
@@ -31,17 +30,10 @@ module faststrip_lab_grid_speed
 
     public :: bench_speed
 
-    !> The influence coefficients that are timed: columns of one strip, seen on the centre lines or
-    !> at the tips of all.
-    character(len=*), parameter :: columns(4) = [character(len=23) :: &
-        'centre', 'tip', 'centre with derivatives', 'tip with derivatives']
-
     ! Given: the friction of the references.
     real(wp), parameter :: mu = 0.3_wp
     ! Tuned [strips]: whose influence coefficients are computed. Origin: as users have them.
     integer, parameter :: strips_across = 15
-    ! Tuned [strips]: room for them on all patches. Origin: capacity.
-    integer, parameter :: most_strips = 150
     ! Tuned [us]: a time of less is the mean of many. Origin: a clock of whole microseconds.
     real(wp), parameter :: shortest_us = 50.0_wp
     ! Tuned [1]: of how many at most. Origin: chosen.
@@ -94,7 +86,7 @@ contains
             allocate (timings(k)%spent(size(cases)), source=0.0_wp)
             allocate (timings(k)%status(size(cases)))
         end do
-        allocate (ns(size(columns), size(cases)), source=huge(1.0_wp))
+        allocate (ns(size(column_names), size(cases)), source=huge(1.0_wp))
         allocate (gap_us(size(cases)), source=huge(1.0_wp))
         call begin_table(writer, file)
         call put_header(writer, [character(len=6) :: 'stage', 'method', 'case', 'status', &
@@ -119,10 +111,10 @@ contains
         do i = 1, size(cases)
             call put_time(writer, 'gap', 'made a curve', cases(i)%name, gap_us(i))
         end do
-        do k = 1, size(columns)
+        do k = 1, size(column_names)
             do i = 1, size(cases)
                 ! Numbers are reported in us, too.
-                call put_time(writer, 'influence', trim(columns(k)), cases(i)%name, &
+                call put_time(writer, 'influence', trim(column_names(k)), cases(i)%name, &
                               1.0e-3_wp*ns(k, i))
             end do
         end do
@@ -204,47 +196,20 @@ contains
     !> Time the influence coefficients of a contact's strips, ns each; kept if less than before.
     subroutine time_columns(case, ns)
         type(bench_case_t), intent(in) :: case
-        real(wp), intent(inout) :: ns(:) !! in the order of `columns`
+        real(wp), intent(inout) :: ns(:) !! in the order of `column_names`
 
         ! Tuned [1]: numbers that are timed at once. Origin: chosen: 200 us.
         integer, parameter :: fewest = 4000
         type(workspace_t) :: workspace
         type(normal_result_t) :: result
         type(status_t) :: status
-        real(wp), dimension(most_strips) :: y, value, d_x, d_half_length
-        real(wp) :: from
-        integer :: k, s, n, repetition, repetitions
+        integer :: k
 
         call solve_by_strips(workspace, case, strips_across, result, status)
         call fail_on_error(status)
-        n = workspace%strips%n
-        associate (left => workspace%strips%y_left, right => workspace%strips%y_right, &
-                   x => workspace%strips%half_length)
-            y(:n) = 0.5_wp*(left(:n) + right(:n))
-            repetitions = 1 + fewest/n**2
-            do k = 1, size(columns)
-                from = cpu_microseconds()
-                do repetition = 1, repetitions
-                    do s = 1, n
-                        select case (k)
-                        case (1)
-                            call center_influence_column(x(s), left(s), right(s), y(:n), value(:n))
-                        case (2)
-                            call tip_influence_column(x(s), left(s), right(s), x(:n), y(:n), &
-                                                      value(:n))
-                        case (3)
-                            call center_influence_column_gradient(x(s), left(s), right(s), y(:n), &
-                                                                  value(:n), d_half_length(:n))
-                        case (4)
-                            call tip_influence_column_gradient(x(s), left(s), right(s), x(:n), &
-                                                               y(:n), value(:n), d_x(:n), &
-                                                               d_half_length(:n))
-                        end select
-                    end do
-                end do
-                ns(k) = min(ns(k), 1.0e3_wp*(cpu_microseconds() - from)/(repetitions*n**2))
-            end do
-        end associate
+        do k = 1, size(ns)
+            ns(k) = min(ns(k), column_ns(k, workspace%strips, fewest))
+        end do
     end subroutine time_columns
 
     !> A row; one that could not be solved has no time.

@@ -10,15 +10,13 @@ module faststrip_lab_grid_steps
     use faststrip_base_text, only: integer_text
     use faststrip_base_material, only: normal_compliance
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
-    use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          standard_inclination
     use faststrip_contact_case, only: contact_case_t
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, read_scene_cases
-    use faststrip_lab_grid_normal, only: gap_of_shift
+    use faststrip_lab_grid_paper_gaps, only: paper_profiles_t, make_paper_profiles, gap_of_shift
     use faststrip_command_program_clock, only: cpu_microseconds, spread_text
     use faststrip_command_program_console, only: fail_on_error, note, begin_table, end_table
     implicit none
@@ -79,7 +77,7 @@ contains
         type(bench_case_t), allocatable :: cases(:)
         type(bench_case_t), allocatable :: others(:)
         type(step_t), allocatable :: history(:)
-        type(profile_t) :: wheel, rail
+        type(paper_profiles_t) :: profiles
         type(csv_writer_t) :: writer
         type(tally_t) :: tally
         type(status_t) :: status
@@ -87,10 +85,7 @@ contains
 
         call read_bench_cases(folder, cases)
         call read_scene_cases(scenes, others)
-        call make_wheel_profile('s1002', wheel, status)
-        call fail_on_error(status)
-        call make_rail_profile('uic60', standard_inclination, rail, status)
-        call fail_on_error(status)
+        call make_paper_profiles(profiles)
         bench%rounds = rounds
         bench%asked = strips
         call reserve_strips(bench%strips, most_patches*(2*strips + 1), status)
@@ -108,7 +103,7 @@ contains
         do kind = load_steps, steps_of_both
             call start_tally(size(cases)*(n_steps + 1), tally)
             do i = 1, size(cases)
-                call make_steps(cases(i), kind, wheel, rail, history)
+                call make_steps(cases(i), kind, profiles, history)
                 call run_history(bench, history)
                 call put_history(cases(i)%name, kind, strips, history, writer, tally)
             end do
@@ -143,10 +138,10 @@ contains
     end subroutine make_history
 
     !> The steps of a history, with the contact itself in their middle.
-    subroutine make_steps(one, kind, wheel, rail, history)
+    subroutine make_steps(one, kind, profiles, history)
         type(bench_case_t), intent(in) :: one
         integer, intent(in) :: kind
-        type(profile_t), intent(in) :: wheel, rail
+        type(paper_profiles_t), intent(in) :: profiles
         type(step_t), allocatable, intent(out) :: history(:)
 
         real(wp) :: factor
@@ -163,7 +158,7 @@ contains
                 history(k)%gap = one%gap
             else
                 history(k)%shift = one%shift + shift_step*(k - n_steps/2)
-                call gap_of_shift(wheel, rail, history(k)%shift, history(k)%gap)
+                call gap_of_shift(profiles, history(k)%shift, history(k)%gap)
             end if
         end do
     end subroutine make_steps

@@ -12,10 +12,11 @@ module faststrip_lab_promises_contacts
     use faststrip_base_material, only: material_t, normal_compliance, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_lab_grid_cases, only: bench_case_t
+    use faststrip_lab_pressures, only: largest_patch
     use faststrip_lab_random_numbers, only: random_t, start_random, uniform, log_uniform, chance
     use faststrip_lab_random_promise_gaps, only: draw_promise_gap, gap_kinds
     use faststrip_lab_promises_wheelsets, only: draw_wheelset_gap
@@ -105,7 +106,7 @@ contains
         real(wp) :: unit, size_of, direction, spin
         integer :: i
 
-        call find_largest_patch(strips, ellipse)
+        ellipse = largest_patch(strips)
         call kalker_coefficients(ellipse%a/ellipse%b, combined_poisson_ratio(contact%material), c, &
                                  status)
         if (is_error(status)) return
@@ -133,22 +134,6 @@ contains
         creepages(1) = creepage_t(rounded(contact%creepage%cksi), rounded(contact%creepage%ceta), &
                                   rounded(contact%creepage%cphi))
     end subroutine draw_promise_creepages
-
-    subroutine find_largest_patch(strips, largest)
-        type(contact_strips_t), intent(in) :: strips
-        type(patch_ellipse_t), intent(out) :: largest
-
-        type(patch_ellipse_t) :: ellipse
-        integer :: first, last
-
-        last = 0
-        do while (last < strips%n)
-            first = last + 1
-            last = patch_end(strips, first)
-            ellipse = patch_ellipse(strips, first, last)
-            if (ellipse%load > largest%load) largest = ellipse
-        end do
-    end subroutine find_largest_patch
 
     !> The number as a table of results has it: six digits.
     real(wp) function rounded(value)

@@ -4,10 +4,11 @@ module faststrip_lab_random_reference_gaps
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
-    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse
+    use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_contact_case, only: contact_case_t
+    use faststrip_lab_pressures, only: largest_patch
     use faststrip_lab_random_numbers, only: random_t, start_random, uniform, log_uniform, chance
     implicit none
     private
@@ -64,22 +65,11 @@ contains
         type(contact_strips_t), intent(in) :: strips    !! its normal solution
         type(status_t), intent(out) :: status           !! from the library
 
-        type(patch_ellipse_t) :: ellipse, other
+        type(patch_ellipse_t) :: ellipse
         type(kalker_coefficients_t) :: c
         real(wp) :: share, direction, g_ab, spin
-        integer :: first, last
 
-        last = 0
-        do while (last < strips%n)
-            first = last + 1
-            last = first
-            do while (last < strips%n)
-                if (strips%patch(last + 1) /= strips%patch(first)) exit
-                last = last + 1
-            end do
-            other = patch_ellipse(strips, first, last)
-            if (other%load > ellipse%load) ellipse = other
-        end do
+        ellipse = largest_patch(strips)
         call kalker_coefficients(ellipse%a/ellipse%b, &
                                  combined_poisson_ratio(scene%material), c, status)
         if (is_error(status)) return

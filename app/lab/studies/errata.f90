@@ -12,16 +12,11 @@ module faststrip_lab_studies_errata
     use faststrip_influence_offcentre, only: strip_influence_at
     use faststrip_influence_polynomial, only: table_influence
     use faststrip_tables_quadrature, only: quadrature_influence_2d
-    use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          standard_inclination
-    use faststrip_geometry_gap, only: gap_t
-    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
-                                                find_rigid_contacts
-    use faststrip_geometry_undeformed_gap, only: make_gap, standard_gap_step, standard_gap_height
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_method, only: workspace_t
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve, hertz_strips
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
+    use faststrip_normal_strips, only: contact_strips_t, reserve_strips, strip_load, strips_load, &
+                                       usual_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_types, only: tangential_result_t
@@ -30,6 +25,8 @@ module faststrip_lab_studies_errata
                                         literal_offcentre_influence, center_pressures
     use faststrip_tangential_paper, only: march_reading_t, march_sum_t, printed_march
     use faststrip_tables_printed_integral, only: printed_influence, rule_qags, rule_cquad
+    use faststrip_lab_grid_paper_gaps, only: paper_profiles_t, make_paper_profiles, gap_of_shift
+    use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_command_program_console, only: fail_on_error, say, begin_table, end_table
     use faststrip_command_program_options, only: command_t, option_t, parse_command, option_text
     implicit none
@@ -424,33 +421,18 @@ contains
         real(wp), intent(in) :: shift
         type(contact_strips_t), intent(inout) :: strips
 
-        integer, parameter :: capacity = 200
-        type(profile_t) :: wheel, rail
-        type(rigid_contact_t) :: touching, left
-        type(gap_t) :: gap
-        type(strip_workspace_t) :: workspace
+        type(paper_profiles_t) :: profiles
+        type(contact_case_t) :: contact
+        type(workspace_t) :: workspace
         type(normal_result_t) :: result
         type(status_t) :: status
 
-        call make_wheel_profile('s1002', wheel, status)
+        call make_paper_profiles(profiles)
+        call gap_of_shift(profiles, shift, contact%gap)
+        contact%load = load
+        call solve_by_strips(workspace, contact, usual_strips, result, status)
         call fail_on_error(status)
-        call make_rail_profile('uic60', standard_inclination, rail, status)
-        call fail_on_error(status)
-        call find_rigid_contacts(wheel, rail, wheelset_t(), track_t(), shift, touching, left, &
-                                    status)
-        call fail_on_error(status)
-        call make_gap(wheel, rail, wheelset_t(), touching, standard_gap_step, standard_gap_height, &
-                      gap, status)
-        call fail_on_error(status)
-        call reserve_strips(strips, capacity, status)
-        call fail_on_error(status)
-        call reserve_strip_workspace(workspace, capacity, size(gap%y), status)
-        call fail_on_error(status)
-        call set_strip_gap(workspace, gap, status)
-        call fail_on_error(status)
-        call strip_solve(workspace, normal_compliance(material_t()), load, strip_options_t(), &
-                         strips, result, status)
-        call fail_on_error(status)
+        strips = workspace%strips
     end subroutine solve_contact
 
     subroutine write_findings(path, list)

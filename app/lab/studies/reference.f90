@@ -16,7 +16,7 @@ module faststrip_lab_studies_reference
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        release_norm, set_norm_gap, norm_solve
     use faststrip_normal_types, only: normal_result_t
-    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
+    use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, scattered
     use faststrip_lab_studies_reference_tang, only: measure_tang
     use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
                                                spread_text, spread_names, cpu_columns
@@ -116,9 +116,7 @@ contains
         share = budget_us/(size(starts)*size(tolerances)*size(bench%cases))
         call system_clock(begin)
         do k = 1, size(bench%cases)
-            ! Scattered, so that what the time leaves out is no end of the sweep.
-            i = 1 + modulo(7*(k - 1), size(bench%cases))
-            if (modulo(size(bench%cases), 7) == 0) i = k
+            i = scattered(k, size(bench%cases))
             dx = sqrt(bench%cases(i)%truth%area/elements)
             do t = 1, size(tolerances)
                 do start = 1, size(starts)

@@ -16,7 +16,7 @@ module faststrip_lab_studies_reference_tang
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
                                            edges_of_norm
-    use faststrip_lab_grid_cases, only: bench_case_t
+    use faststrip_lab_grid_cases, only: bench_case_t, scattered
     use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
                                                spread_text, spread_names
     use faststrip_command_program_console, only: fail_on_error, note
@@ -60,9 +60,7 @@ contains
         solved = 0
         call system_clock(begin)
         do k = 1, size(cases)
-            ! Scattered, so that what the time leaves out is no end of the sweep.
-            i = 1 + modulo(7*(k - 1), size(cases))
-            if (modulo(size(cases), 7) == 0) i = k
+            i = scattered(k, size(cases))
             solved = solved + 1
             names(solved) = cases(i)%name
             call measure_case(cases(i), sqrt(cases(i)%truth%area/elements), &
