@@ -39,7 +39,7 @@ contains
         integer, intent(in) :: seed                   !! >= 0
         integer, intent(in) :: number                 !! from 1
         type(force_contact_t), intent(out) :: contact !! drawn
-        integer, intent(in), optional :: family       !! index of `force_families`; else in turn
+        integer, intent(in) :: family                 !! index of `force_families`; 0: in turn
 
         real(wp) :: poisson
 
@@ -47,7 +47,7 @@ contains
         contact%seed = seed
         contact%number = number
         contact%family = force_family(number)
-        if (present(family)) contact%family = family
+        if (family > 0) contact%family = family
         contact%load = 10.0_wp**uniform(contact%random, 3.7_wp, 5.2_wp)
         contact%mu = uniform(contact%random, 0.1_wp, 0.6_wp)
         poisson = uniform(contact%random, 0.2_wp, 0.35_wp)

@@ -63,11 +63,7 @@ contains
                          // ' elements across, *_coarse half as many; seed ' // integer_text(seed))
         call put_record_header(writer)
         do number = first, first + contacts - 1
-            if (family > 0) then
-                call draw_force_contact(seed, number, contact, family)
-            else
-                call draw_force_contact(seed, number, contact)
-            end if
+            call draw_force_contact(seed, number, contact, family)
             call solve_reference(work, contact, across, record)
             call put_record(writer, record)
             call progress('contact', number - first + 1, contacts)

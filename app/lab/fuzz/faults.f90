@@ -11,7 +11,7 @@ module faststrip_lab_fuzz_faults
     implicit none
     private
 
-    public :: plant_fault, plant_force_fault, is_fault, fault_names
+    public :: plant_fault, plant_force_fault, fault_names
 
     !> What can be planted.
     character(len=20), parameter :: fault_names(30) = [character(len=20) :: &
@@ -23,13 +23,6 @@ module faststrip_lab_fuzz_faults
         'fy_even', 'fx_offset', 'power_sign']
 
 contains
-
-    !> Is there a fault of this name?
-    pure logical function is_fault(name)
-        character(len=*), intent(in) :: name
-
-        is_fault = any(fault_names == name)
-    end function is_fault
 
     !> Spoil a normal solution; a name that is not about it changes nothing.
     pure subroutine plant_fault(name, curve, strips, result)

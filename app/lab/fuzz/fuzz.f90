@@ -9,7 +9,7 @@ module faststrip_lab_fuzz
     use faststrip_command_program_options, only: command_t, option_t, parse_command, given, &
                                                  option_text, option_integer, option_word
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
-    use faststrip_lab_fuzz_faults, only: is_fault, fault_names
+    use faststrip_lab_fuzz_faults, only: fault_names
     use faststrip_lab_fuzz_judges, only: verdict_t
     use faststrip_lab_fuzz_run, only: workspaces_t, try_case
     use faststrip_lab_fuzz_tables, only: print_verdicts, read_verdicts, put_fuzz_header, &
@@ -45,7 +45,7 @@ contains
             call list_faults()
             return
         end if
-        if (work%fault /= '' .and. .not. is_fault(work%fault)) &
+        if (work%fault /= '' .and. .not. any(fault_names == work%fault)) &
             call usage_error('unknown fault: ' // work%fault, command%name)
         if (given(command, '--read')) then
             if (given(command, '-o')) &

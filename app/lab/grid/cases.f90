@@ -39,8 +39,8 @@ module faststrip_lab_grid_cases
 contains
 
     !> Read `s1002_uic60_B.csv` of a folder, or that of the other sign set, and the gap files it
-    !> stands for. They are of like bodies. Like all readers here it ends the program if a file cannot
-    !> be read.
+    !> stands for. They are of like bodies. Like all readers here it ends the program if a file
+    !> cannot be read.
     subroutine read_bench_cases(folder, cases, signs)
         character(len=*), intent(in) :: folder                     !! name of the folder
         type(bench_case_t), allocatable, intent(out) :: cases(:)   !! one a row
@@ -158,8 +158,8 @@ contains
         end do
     end subroutine read_scene_cases
 
-    !> Which of n contacts is the k-th where time may run out: scattered, so that what is left out is
-    !> no end of a sweep.
+    !> Which of n contacts is the k-th where time may run out: scattered, so that what is left out
+    !> is no end of a sweep.
     pure integer function scattered(k, n)
         integer, intent(in) :: k, n !! 1 to n; contacts
 
@@ -186,7 +186,7 @@ contains
         penetration = 1.5_wp*load_compliance*k/long
     end subroutine ellipse_gap
 
-    !> Read numbers, and words beside them, at least one row; ends the program if that cannot be done.
+    !> Read numbers, and words beside them, at least one row.
     subroutine read_rows(file, names, values, name, words)
         character(len=*), intent(in) :: file                !! CSV
         character(len=*), intent(in) :: names(:)            !! of the columns of numbers

@@ -1,5 +1,5 @@
-!> What influence coefficients cost inside the strip solver: columns of one strip, seen on the centre
-!> lines or at the tips of all.
+!> What influence coefficients cost inside the strip solver: columns of one strip, seen on the
+!> centre lines or at the tips of all.
 module faststrip_lab_grid_column_times
     use faststrip_base_kinds, only: wp
     use faststrip_command_program_clock, only: cpu_microseconds

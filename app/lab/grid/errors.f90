@@ -56,7 +56,7 @@ contains
         type(bench_t), allocatable :: bench
         type(bench_case_t), allocatable :: contacts(:)
 
-        call read_contacts(folder, contacts)
+        call read_bench_cases(folder, contacts)
         call begin(bench, file, 'CONTACT on 0.1 mm, area extrapolated')
         call try_strips(bench, contacts, [usual_strips, strips_auto])
         call end_table(bench%writer)
@@ -71,7 +71,7 @@ contains
         type(bench_t), allocatable :: bench
         type(bench_case_t), allocatable :: contacts(:)
 
-        call read_contacts(folder, contacts)
+        call read_bench_cases(folder, contacts)
         call begin(bench, file, integer_text(finest) // ' strips for the shifts, Hertz for the ' &
                    // 'ellipses')
         call judge_by_strips(bench, contacts, finest)
@@ -91,7 +91,7 @@ contains
         type(status_t) :: status
         integer :: kind
 
-        call read_contacts(folder, contacts)
+        call read_bench_cases(folder, contacts)
         call begin(bench, file, 'CONTACT, Hertz, ' // integer_text(finest_of_shapes) // ' strips')
         call reserve_lattice(bench%lattice, capacity, status)
         call fail_on_error(status)
@@ -119,16 +119,6 @@ contains
                                        'method', 'strips', 'status', 'strips_used', 'iterations', &
                                        error_columns])
     end subroutine begin
-
-    !> The 20 contacts, judged by CONTACT.
-    subroutine read_contacts(folder, contacts)
-        character(len=*), intent(in) :: folder
-        type(bench_case_t), allocatable, intent(out) :: contacts(:)
-
-        type(status_t) :: status
-
-        call read_bench_cases(folder, contacts)
-    end subroutine read_contacts
 
     !> Ellipses of many proportions under one load, judged by Hertz.
     subroutine make_ellipses(contacts)

@@ -273,8 +273,8 @@ contains
         times%operations = median(operations(:times%runs))
     end subroutine measure_start
 
-    !> Time of one influence coefficient of a solved contact, ns: on the centre lines and at the tips
-    !> as one iteration needs them.
+    !> Time of one influence coefficient of a solved contact, ns: on the centre lines and at the
+    !> tips, as one iteration needs them.
     real(wp) function entry_time(strips, of_centre, of_tip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: of_centre, of_tip ! with derivatives or without

@@ -35,7 +35,7 @@ contains
         type(truth_workspace_t) :: work
         type(bench_case_t), allocatable :: ellipses(:)
         character(len=:), allocatable :: name
-        integer :: each, across, kind, only, i
+        integer :: each, across, kind, only, i, number
 
         command%name = 'truth'
         command%usage = ''
@@ -72,13 +72,12 @@ contains
             if (only > 0 .and. kind /= only) cycle
             do i = 1, each
                 call progress(trim(promise_kinds(kind)), i, each)
+                number = i
                 if (promise_kinds(kind) == 'ellipse') then
-                    if (1 + ellipse_stride*(i - 1) > size(ellipses)) exit
-                    call put_contact(writer, work, ellipses, kind, 1 + ellipse_stride*(i - 1), &
-                                     across)
-                else
-                    call put_contact(writer, work, ellipses, kind, i, across)
+                    number = 1 + ellipse_stride*(i - 1)
+                    if (number > size(ellipses)) exit
                 end if
+                call put_contact(writer, work, ellipses, kind, number, across)
             end do
         end do
         call end_table(writer)

@@ -18,12 +18,6 @@ module faststrip_lab_random_gaps
 
     public :: fuzz_case_t, make_fuzz_case, draw_family_gap, family_names
 
-    integer, parameter :: family_hertz = 1, family_several = 2, family_merging = 3, &
-                          family_small_second = 4, family_kinks = 5, family_flat_top = 6, &
-                          family_wavy = 7, family_conformal = 8, family_concave = 9, &
-                          family_varying_a = 10, family_negative_a = 11, family_measured = 12, &
-                          family_edge = 13, family_mixed = 14
-
     !> What the families are called.
     character(len=12), parameter :: family_names(14) = [character(len=12) :: &
         'hertz', 'several', 'merging', 'small_second', 'kinks', 'flat_top', 'wavy', &
@@ -78,7 +72,7 @@ contains
         ! A Hertz ellipse of about a/b = .004 to 100.
         b0 = a0*log_uniform(random, 0.004_wp, 100.0_wp)**1.6_wp
         noisy = .false.
-        if (fuzz_case%family == family_measured) then
+        if (family_names(fuzz_case%family) == 'measured') then
             noisy = .true.
             a0 = 1.0_wp/920.0_wp
             b0 = 1.0_wp/log_uniform(random, 60.0_wp, 2000.0_wp)
@@ -87,11 +81,11 @@ contains
         call hertz_solve(normal_compliance(material_t()), a0, b0, fuzz_case%load, hertz, status)
         y_unit = hertz%b
         if (chance(random, 0.2_wp)) y_unit = log_uniform(random, 0.5_wp, 20.0_wp)
-        if (fuzz_case%family == family_measured) y_unit = uniform(random, 5.0_wp, 10.0_wp)
+        if (family_names(fuzz_case%family) == 'measured') y_unit = uniform(random, 5.0_wp, 10.0_wp)
         h_unit = b0*y_unit**2
         call draw_shape(random, fuzz_case%family, hertz%penetration/(b0*hertz%b**2), shape)
         call draw_range(random, fuzz_case%family, t_from, t_to)
-        if (fuzz_case%family == family_measured) then
+        if (family_names(fuzz_case%family) == 'measured') then
             points = nint(y_unit*(t_to - t_from)/uniform(random, 0.05_wp, 0.5_wp))
         else
             points = draw_number_of_points(random)
@@ -181,10 +175,10 @@ contains
 
         t_from = -log_uniform(random, 2.0_wp, 8.0_wp)
         t_to = log_uniform(random, 2.0_wp, 8.0_wp)
-        if (family == family_several) then
+        if (family_names(family) == 'several') then
             t_from = -6.0_wp
             t_to = 6.0_wp
-        else if (family == family_edge) then
+        else if (family_names(family) == 'edge') then
             if (chance(random, 0.7_wp)) t_from = uniform(random, -1.5_wp, 0.5_wp)
             if (chance(random, 0.3_wp)) t_to = uniform(random, 0.6_wp, 1.5_wp)
         end if
@@ -224,23 +218,23 @@ contains
         integer :: i
 
         shape%family = family
-        select case (family)
-        case (family_several)
+        select case (trim(family_names(family)))
+        case ('several')
             shape%n = 2 + pick(random, most_terms - 3)
             do i = 1, shape%n
                 shape%at(i) = uniform(random, -4.0_wp, 4.0_wp)
                 shape%height(i) = uniform(random, 0.0_wp, min(1.0_wp, penetration))
                 shape%bend(i) = log_uniform(random, 0.3_wp, 10.0_wp)
             end do
-        case (family_merging)
+        case ('merging')
             shape%at(1) = log_uniform(random, 0.2_wp, 3.0_wp)
             if (chance(random, 0.5_wp)) shape%tilt = uniform(random, -0.2_wp, 0.2_wp)
-        case (family_small_second)
+        case ('small_second')
             shape%at(1) = uniform(random, 1.2_wp, 3.0_wp)
             if (chance(random, 0.5_wp)) shape%at(1) = -shape%at(1)
             shape%height(1) = penetration*uniform(random, 0.0_wp, 0.8_wp)
             shape%bend(1) = log_uniform(random, 3.0_wp, 300.0_wp)
-        case (family_kinks, family_measured)
+        case ('kinks', 'measured')
             ! Bend of the middle, and what is added to it beyond each kink.
             shape%n = 1 + pick(random, most_terms - 1)
             shape%bend(1) = log_uniform(random, 0.05_wp, 2.0_wp)
@@ -250,20 +244,20 @@ contains
                 if (chance(random, 0.7_wp)) &
                     shape%bend(i) = shape%bend(1)*log_uniform(random, 0.1_wp, 10.0_wp)
             end do
-        case (family_flat_top)
+        case ('flat_top')
             shape%at(1) = uniform(random, -0.5_wp, 0.5_wp)
             shape%height(1) = log_uniform(random, 0.05_wp, 2.0_wp)
             shape%bend(1) = log_uniform(random, 0.01_wp, 10.0_wp)
             if (chance(random, 0.5_wp)) shape%bend(2) = log_uniform(random, 0.01_wp, 10.0_wp)
             if (chance(random, 0.3_wp)) shape%tilt = uniform(random, -0.1_wp, 0.1_wp)
-        case (family_wavy, family_mixed)
+        case ('wavy', 'mixed')
             shape%n = pick(random, 4)
             do i = 1, shape%n
                 shape%at(i) = uniform(random, 0.0_wp, 2.0_wp*pi)
                 shape%height(i) = log_uniform(random, 1.0e-3_wp, 0.5_wp)
                 shape%bend(i) = 2.0_wp*pi*log_uniform(random, 0.2_wp, 5.0_wp)
             end do
-            if (family == family_mixed) then
+            if (family_names(family) == 'mixed') then
                 shape%n = most_terms
                 do i = 5, most_terms
                     shape%at(i) = uniform(random, -3.0_wp, 3.0_wp)
@@ -271,16 +265,17 @@ contains
                 end do
                 shape%tilt = uniform(random, -0.5_wp, 0.5_wp)
             end if
-        case (family_conformal)
+        case ('conformal')
             shape%at(1) = 2.0_wp + 2.0_wp*pick(random, 5)
             if (chance(random, 0.5_wp)) shape%bend(1) = log_uniform(random, 1.0e-4_wp, 0.3_wp)
-        case (family_concave)
+        case ('concave')
             shape%bend(1) = log_uniform(random, 0.1_wp, 10.0_wp)
             shape%bend(2) = log_uniform(random, 0.02_wp, 1.0_wp)
             if (chance(random, 0.7_wp)) shape%tilt = uniform(random, -1.0_wp, 1.0_wp)
         end select
-        if (family == family_varying_a .or. family == family_negative_a &
-            .or. family == family_mixed) call draw_curvature(random, family, shape)
+        if (any(family_names(family) == [character(len=12) :: 'varying_a', 'negative_a', &
+                                         'mixed'])) &
+            call draw_curvature(random, family, shape)
     end subroutine draw_shape
 
     !> How the longitudinal curvature varies.
@@ -299,7 +294,7 @@ contains
             shape%jump = 0.0_wp
             shape%edge = -huge(1.0_wp)
         end if
-        if (family == family_negative_a) then
+        if (family_names(family) == 'negative_a') then
             shape%wave = 1.0_wp + log_uniform(random, 1.0e-3_wp, 0.2_wp)
             shape%turns = uniform(random, 2.0_wp, 6.0_wp)
             shape%jump = 1.0_wp
@@ -315,31 +310,31 @@ contains
         integer :: i
 
         h = t*t
-        select case (shape%family)
-        case (family_several)
+        select case (trim(family_names(shape%family)))
+        case ('several')
             h = minval(shape%height(:shape%n) + shape%bend(:shape%n)*(t - shape%at(:shape%n))**2)
-        case (family_merging)
+        case ('merging')
             h = ((t*t - shape%at(1)**2)/(2.0_wp*shape%at(1)))**2
-        case (family_small_second)
+        case ('small_second')
             h = min(h, shape%height(1) + shape%bend(1)*(t - shape%at(1))**2)
-        case (family_kinks, family_measured)
+        case ('kinks', 'measured')
             h = shape%bend(1)*t*t
             do i = 2, shape%n
                 if (t*shape%at(i) > shape%at(i)**2) h = h + shape%bend(i)*(t - shape%at(i))**2
             end do
-        case (family_flat_top)
+        case ('flat_top')
             h = max(abs(t - shape%at(1)) - shape%height(1), 0.0_wp)
             h = h*(shape%bend(2) + shape%bend(1)*h)
-        case (family_wavy)
+        case ('wavy')
             h = h + sum(shape%height(:shape%n)*sin(shape%bend(:shape%n)*t + shape%at(:shape%n)))
-        case (family_mixed)
+        case ('mixed')
             h = h + sum(shape%height(:4)*sin(shape%bend(:4)*t + shape%at(:4)))
             do i = 5, shape%n
                 if (t*shape%at(i) > shape%at(i)**2) h = h + shape%bend(i)*(t - shape%at(i))**2
             end do
-        case (family_conformal)
+        case ('conformal')
             h = abs(t)**shape%at(1) + shape%bend(1)*t*t
-        case (family_concave)
+        case ('concave')
             h = shape%bend(2)*t**4 - shape%bend(1)*t*t
         end select
         h = h + shape%tilt*t

@@ -17,7 +17,7 @@ module faststrip_lab_studies_integral
     use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
                                       refit_row, fit_lsq
     use faststrip_influence_row, only: influence_column
-    use faststrip_lab_studies_exact_influence, only: qp
+    use faststrip_lab_studies_exact_influence, only: exact_influence, qp
     use faststrip_lab_studies_polynomials, only: power_of_ten_influence, power_of_ten_row
     use faststrip_command_program_clock, only: median, spread_of
     use faststrip_command_program_console, only: fail_on_error, begin_table, end_table
@@ -93,15 +93,9 @@ contains
                     first = at + 1
                     do method = 1, n_methods
                         at = at + 1
-                        if (round == 1) then
-                            cost(at)%method = method
-                            cost(at)%n = integer_text(n_list(i))
-                            cost(at)%b = b_list(j)
-                            cost(at)%loop = 'scalar'
-                            cost(at)%baseline = first
-                            allocate (cost(at)%seconds(merge(min(rounds, slow_rounds), rounds, &
-                                                             method > closed)))
-                        end if
+                        if (round == 1) call start_cost(integer_text(n_list(i)), 'scalar', &
+                                                        merge(min(rounds, slow_rounds), rounds, &
+                                                              method > closed))
                         if (round > size(cost(at)%seconds)) cycle
                         call time_scalar(method, tables, n_list(i), b, values(0, :), &
                                          cost(at)%seconds(round), check)
@@ -112,20 +106,27 @@ contains
                 first = at + 1
                 do method = 1, closed
                     at = at + 1
-                    if (round == 1) then
-                        cost(at)%method = method
-                        cost(at)%n = '0:' // integer_text(last)
-                        cost(at)%b = b_list(j)
-                        cost(at)%loop = 'row'
-                        cost(at)%baseline = first
-                        allocate (cost(at)%seconds(rounds))
-                    end if
+                    if (round == 1) call start_cost('0:' // integer_text(last), 'row', rounds)
                     call time_row(method, tables, b, values, cost(at)%seconds(round), check)
                     if (round == 1) cost(at)%rel_err = largest_error(values, exact)
                 end do
             end do
         end do
         call write_costs(writer, cost)
+
+    contains
+
+        subroutine start_cost(n, loop, timed)
+            character(len=*), intent(in) :: n, loop
+            integer, intent(in) :: timed ! rounds
+
+            allocate (cost(at)%seconds(timed))
+            cost(at)%method = method
+            cost(at)%n = n
+            cost(at)%b = b_list(j)
+            cost(at)%loop = loop
+            cost(at)%baseline = first
+        end subroutine start_cost
     end subroutine bench_integral
 
     !> The published table and fresh fits of one half of the integral.
@@ -249,11 +250,15 @@ contains
         real(wp), intent(in) :: b(n_arguments)
         real(qp) :: exact(0:last, n_judged)
 
+        real(qp) :: half_width
+        real(wp) :: uncertainty
         integer :: i, n
 
         do i = 1, n_judged
+            half_width = b(1 + (i - 1)*judged_step)
             do n = 0, last
-                exact(n, i) = exact_influence(n, b(1 + (i - 1)*judged_step))
+                call exact_influence(0.0_wp, (2*n - 1)*half_width, (2*n + 1)*half_width, &
+                                     exact(n, i), uncertainty)
             end do
         end do
     end function exact_influences
@@ -264,35 +269,6 @@ contains
 
         largest_error = real(maxval(abs(values(:, ::judged_step)/exact - 1)), wp)
     end function largest_error
-
-    !> i_n(b) by the double-exponential rule, `u = 1/(1 + exp(-pi sinh t))`, of the kernel
-    !> `asinh(cr/u) - asinh(cl/u)` in a form that does not cancel, in the widest precision there is.
-    real(qp) function exact_influence(n, b) result(value)
-        integer, intent(in) :: n
-        real(wp), intent(in) :: b
-
-        real(qp), parameter :: pi_q = acos(-1.0_qp)
-        real(qp), parameter :: h = 1.0_qp/40
-        integer, parameter :: nodes = 170
-        real(qp) :: t, u, rest, cl, cr, ker
-        integer :: j
-
-        cl = (2*n - 1)*real(b, qp)
-        cr = (2*n + 1)*real(b, qp)
-        value = 0.0_qp
-        do j = -nodes, nodes
-            t = j*h
-            u = 1/(1 + exp(-pi_q*sinh(t)))
-            rest = 1/(1 + exp(pi_q*sinh(t)))
-            if (n == 0) then
-                ker = 2*asinh(cr/u)
-            else
-                ker = 2*atanh((cr - cl)/(sqrt(u*u + cl*cl) + sqrt(u*u + cr*cr)))
-            end if
-            value = value + cosh(t)*u*rest*sqrt(rest*(1 + u))*ker
-        end do
-        value = 2*h*pi_q*value
-    end function exact_influence
 
     subroutine write_costs(writer, cost)
         type(csv_writer_t), intent(inout) :: writer

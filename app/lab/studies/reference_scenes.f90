@@ -117,7 +117,8 @@ contains
         type(norm_workspace_t) :: norm
         type(tang_workspace_t) :: tang
 
-        call solve_by_norm(norm, scene, norm_options_t(dx=dx, dy=dy), figures%normal, status, strips)
+        call solve_by_norm(norm, scene, norm_options_t(dx=dx, dy=dy), figures%normal, status, &
+                           strips)
         if (is_error(status)) return
         call tang_solve(tang, norm%grid, scene%material, scene%mu, scene%creepage, &
                         tang_options_t(), figures%forces, status)
