@@ -9,6 +9,7 @@ module faststrip_lab_forces_record
     use faststrip_base_material, only: material_t
     use faststrip_files_csv, only: csv_writer_t, csv_table_t, put_header, put_cell, end_row, &
                                    real_text, read_cell, put_cells
+    use faststrip_files_profile_points, only: split_words
     use faststrip_tangential_types, only: tangential_result_t
     implicit none
     private
@@ -162,18 +163,24 @@ contains
         real(wp), allocatable, intent(out) :: values(:, :) ! shape (length, columns)
         type(status_t), intent(out) :: status
 
+        ! More words than a contact has states, so that too many are told by their number.
+        integer, parameter :: most_words = 1000
         character(len=:), allocatable :: text
-        integer :: i, n
+        integer :: i, k, n, first(most_words), last(most_words)
         logical :: is_valid
 
         call clear_status(status)
         do i = 1, size(names)
             call read_cell(table, row, trim(names(i)), text, status)
             if (is_error(status)) return
-            n = count_words(text)
+            n = 0
+            if (text /= '') call split_words(text, first, last, n)
             if (i == 1) allocate (values(n, size(names)))
             is_valid = n == size(values, 1)
-            if (is_valid) call take_words(text, values(:, i), is_valid)
+            do k = 1, n
+                if (is_valid .and. k <= size(first)) &
+                    call parse_real(text(first(k):last(k)), values(k, i), is_valid)
+            end do
             if (.not. is_valid) then
                 call set_status(status, st_file_format, 'not ' // integer_text(size(values, 1)) &
                                 // ' numbers in column ' // trim(names(i)) // place(table, row))
@@ -181,39 +188,6 @@ contains
             end if
         end do
     end subroutine take_lists
-
-    pure integer function count_words(text) result(n)
-        character(len=*), intent(in) :: text
-
-        integer :: i
-
-        n = 0
-        do i = 1, len(text)
-            if (text(i:i) == ' ') cycle
-            if (i == 1) then
-                n = n + 1
-            else if (text(i - 1:i - 1) == ' ') then
-                n = n + 1
-            end if
-        end do
-    end function count_words
-
-    pure subroutine take_words(text, values, is_valid)
-        character(len=*), intent(in) :: text
-        real(wp), intent(inout) :: values(:) ! as many as there are words
-        logical, intent(out) :: is_valid
-
-        integer :: i, first, last
-
-        is_valid = .true.
-        last = 0
-        do i = 1, size(values)
-            first = last + verify(text(last + 1:), ' ')
-            last = first + index(text(first:) // ' ', ' ') - 1
-            call parse_real(text(first:last - 1), values(i), is_valid)
-            if (.not. is_valid) return
-        end do
-    end subroutine take_words
 
     function place(table, row) result(text)
         type(csv_table_t), intent(in) :: table

@@ -70,7 +70,9 @@ contains
         asked%methods%fastsim_ny = 20
         call draw_creepage(seed, case%number, scales, asked%creepage)
         if (.not. found(asked, forces)) return
-        call judge_size(forces, scales, verdict)
+        call report_badness(verdict, judge_bound, hypot(forces%fx, forces%fy) &
+                            /(scales%force*(1.0_wp + rounding)))
+        call report_badness(verdict, judge_moment, abs(forces%mz)/(arm_factor*scales%moment))
         call judge_dissipation(asked, forces, scales, verdict)
 
         asked%creepage = creepage_t(-asked%creepage%cksi, -asked%creepage%ceta, &
@@ -154,17 +156,6 @@ contains
             if (chance(random, 0.25_wp)) draw = 0.0_wp
         end function draw
     end subroutine draw_creepage
-
-    !> At most mu N, and what that can turn.
-    pure subroutine judge_size(forces, scales, verdict)
-        type(tangential_result_t), intent(in) :: forces
-        type(scales_t), intent(in) :: scales
-        type(verdict_t), intent(inout) :: verdict
-
-        call report_badness(verdict, judge_bound, hypot(forces%fx, forces%fy) &
-                            /(scales%force*(1.0_wp + rounding)))
-        call report_badness(verdict, judge_moment, abs(forces%mz)/(arm_factor*scales%moment))
-    end subroutine judge_size
 
     !> The forces take power out, and FASTSTRIP's friction power is just that.
     pure subroutine judge_dissipation(asked, forces, scales, verdict)

@@ -42,7 +42,9 @@ contains
                                                                  'lattice'])
         work%fault = option_text(command, '--plant', '')
         if (work%fault == 'list') then
-            call list_faults()
+            do number = 1, size(fault_names)
+                call say(trim(fault_names(number)))
+            end do
             return
         end if
         if (work%fault /= '' .and. .not. any(fault_names == work%fault)) &
@@ -136,15 +138,6 @@ contains
         family = family(:n)
         verdicts = verdicts(:n)
     end subroutine try_cases
-
-    !> What can be planted.
-    subroutine list_faults()
-        integer :: i
-
-        do i = 1, size(fault_names)
-            call say(trim(fault_names(i)))
-        end do
-    end subroutine list_faults
 
     !> Write a case's gap so that a case file can name it.
     subroutine write_gap(path, seed, case)

@@ -24,15 +24,17 @@ module faststrip_lab_fuzz_run
     use faststrip_lab_fuzz_faults, only: plant_fault
     use faststrip_lab_fuzz_force_judges, only: judge_forces
     use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_answer, judge_finite, &
-                                         judge_depth
+                                         judge_depth, judge_resolved
     use faststrip_lab_fuzz_norm_judge, only: judge_by_norm
     use faststrip_lab_fuzz_relations, only: relations, related_case, judge_relation
-    use faststrip_lab_fuzz_solution_judges, only: judge_figures, judge_contact, judge_gap_curve, &
-                                                  judge_estimates
+    use faststrip_lab_fuzz_solution_judges, only: judge_figures, judge_contact, judge_gap_curve
     implicit none
     private
 
     public :: workspaces_t, try_case
+
+    ! `ok` means that the solution's own estimates are at most this.
+    real(wp), parameter :: largest_estimate = 0.1_wp
 
     !> What the solvers work in, and how they are asked.
     type :: workspaces_t
@@ -71,7 +73,7 @@ contains
             ! An answer to no contact says nothing further.
             if (verdict%badness(judge_depth) > 1.0_wp) return
             call estimate(case, workspace, verdict)
-            call judge_estimates(verdict)
+            call report_badness(verdict, judge_resolved, maxval(verdict%est_err)/largest_estimate)
             call judge_forces(seed, case, work%fault, workspace, verdict)
             curve = workspace%solver%curve
             strips = workspace%strips

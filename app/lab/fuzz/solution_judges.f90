@@ -16,11 +16,11 @@ module faststrip_lab_fuzz_solution_judges
     use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_finite, judge_order, &
                                          judge_load, judge_pmax, judge_area, judge_ends, &
                                          judge_depth, judge_centre, judge_tip, judge_middle, &
-                                         judge_outside, judge_curve, judge_resolved
+                                         judge_outside, judge_curve
     implicit none
     private
 
-    public :: judge_figures, judge_contact, judge_gap_curve, judge_estimates
+    public :: judge_figures, judge_contact, judge_gap_curve
 
     real(wp), parameter :: load_tolerance = 1.0e-6_wp
     real(wp), parameter :: rounding = 1.0e-9_wp
@@ -32,7 +32,6 @@ module faststrip_lab_fuzz_solution_judges
     real(wp), parameter :: middle_tolerance = 0.1_wp
     real(wp), parameter :: overlap_tolerance = 0.02_wp
     real(wp), parameter :: area_tolerance = 1.0e-3_wp
-    real(wp), parameter :: largest_estimate = 0.1_wp
     real(wp), parameter :: dip_tolerance = 0.02_wp  ! of D - h_lowest
 
     integer, parameter :: most_strips_judged = 24, scan_places = 1000, places_in_interval = 3
@@ -390,13 +389,6 @@ contains
                                 max(lowest_term - inv2r, inv2r - raised)/(rounding*largest_term))
         end subroutine hold_term
     end subroutine judge_gap_curve
-
-    !> `ok` means that the solution's own estimates are small.
-    pure subroutine judge_estimates(verdict)
-        type(verdict_t), intent(inout) :: verdict !! with the estimates
-
-        call report_badness(verdict, judge_resolved, maxval(verdict%est_err)/largest_estimate)
-    end subroutine judge_estimates
 
     pure integer function end_of_patch(strips, first) result(last)
         type(contact_strips_t), intent(in) :: strips

@@ -13,6 +13,7 @@ module faststrip_lab_grid_cases
     use faststrip_command_program_console, only: fail_on_error
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
+    use faststrip_lab_grid_ellipse, only: parabolic_gap
     use faststrip_lab_random_reference_gaps, only: reference_scene_t, make_reference_scene
     implicit none
     private
@@ -34,7 +35,6 @@ module faststrip_lab_grid_cases
     end type bench_case_t
 
     integer, parameter :: ellipse_points = 401
-    real(wp), parameter :: ellipse_reach = 2.0_wp ! of the semi-axis
 
 contains
 
@@ -90,7 +90,7 @@ contains
         character(len=:), allocatable :: words(:)
         real(wp), allocatable :: values(:, :)
         real(wp) :: young, inv2r_x, inv2r_y
-        integer :: i, k
+        integer :: i
 
         call read_rows(folder // '/hertz_creep.csv', names, values, 'case', words)
         allocate (cases(size(words)))
@@ -112,16 +112,7 @@ contains
                 cases(i)%stick_fraction = row(13)/row(14)
                 call ellipse_gap(row(1), row(2), row(6)*normal_compliance(cases(i)%material), &
                                  inv2r_x, inv2r_y, cases(i)%truth%penetration)
-                associate (gap => cases(i)%gap)
-                    allocate (gap%y(ellipse_points), gap%h(ellipse_points), &
-                              gap%inv2r(ellipse_points))
-                    do k = 1, ellipse_points
-                        gap%y(k) = ellipse_reach*row(2)*(2*k - 1 - ellipse_points) &
-                                   /(ellipse_points - 1)
-                        gap%h(k) = inv2r_y*gap%y(k)**2
-                        gap%inv2r(k) = inv2r_x
-                    end do
-                end associate
+                cases(i)%gap = parabolic_gap(inv2r_x, inv2r_y, row(2), ellipse_points)
             end associate
         end do
     end subroutine read_ellipse_cases

@@ -11,7 +11,7 @@ module faststrip_lab_grid_ellipse
     implicit none
     private
 
-    public :: make_ellipse, make_parabola
+    public :: make_ellipse, make_parabola, parabolic_gap
 
     real(wp), parameter :: sharpest = 1.0e-3_wp ! the larger of A and B, 1/mm
     real(wp), parameter :: half_range = 2.0_wp  ! of the gap's points, in semi-axes
@@ -73,7 +73,6 @@ contains
 
         type(hertz_t) :: hertz
         type(status_t) :: status
-        integer :: i
 
         call hertz_solve(normal_compliance(contact%material), inv2r_x, inv2r_y, contact%load, &
                          hertz, status)
@@ -84,14 +83,19 @@ contains
         truth%area = hertz%area
         truth%y_min = -hertz%b
         truth%y_max = hertz%b
-        contact%gap = gap_t()
-        associate (gap => contact%gap)
-            allocate (gap%y(points), gap%h(points), gap%inv2r(points))
-            do i = 1, points
-                gap%y(i) = half_range*hertz%b*(2*i - 1 - points)/(points - 1)
-            end do
-            gap%h = inv2r_y*gap%y**2
-            gap%inv2r = inv2r_x
-        end associate
+        contact%gap = parabolic_gap(inv2r_x, inv2r_y, hertz%b, points)
     end subroutine make_parabola
+
+    !> The gap A x^2 + B y^2 over twice the width of an ellipse.
+    pure type(gap_t) function parabolic_gap(inv2r_x, inv2r_y, b, points) result(gap)
+        real(wp), intent(in) :: inv2r_x, inv2r_y !! A, B, 1/mm
+        real(wp), intent(in) :: b                !! lateral semi-axis, mm
+        integer, intent(in) :: points            !! >= 5
+
+        integer :: i
+
+        gap%y = [(half_range*b*(2*i - 1 - points)/(points - 1), i=1, points)]
+        gap%h = inv2r_y*gap%y**2
+        allocate (gap%inv2r(points), source=inv2r_x)
+    end function parabolic_gap
 end module faststrip_lab_grid_ellipse

@@ -7,7 +7,8 @@ module faststrip_lab_grid_examples
     use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
     use faststrip_lab_grid_example_cases, only: example_names, read_example
     use faststrip_contact_methods, only: contact_methods_t, normal_hertz, normal_auto, &
-                                         tangential_linear, tangential_fastsim
+                                         normal_strip, tangential_linear, tangential_fastsim, &
+                                         tangential_faststrip
     use faststrip_contact_method, only: contact_result_t
     use faststrip_contact_wanted, only: wanted_t
     use faststrip_command_rows_result_csv, only: result_columns, put_result
@@ -20,6 +21,10 @@ module faststrip_lab_grid_examples
 
     character(len=*), parameter :: labels(5) = [character(len=22) :: 'Kalker', &
         'Hertz + linear', 'Hertz + FASTSIM', 'strips 15 + FASTSTRIP', 'auto 2 %']
+    integer, parameter :: normal_methods(5) = [normal_auto, normal_hertz, normal_hertz, &
+                                               normal_strip, normal_auto]
+    integer, parameter :: tangential_methods(5) = [tangential_faststrip, tangential_linear, &
+        tangential_fastsim, tangential_faststrip, tangential_faststrip]
 
 contains
 
@@ -74,18 +79,8 @@ contains
         contact%methods = contact_methods_t()
         contact%wanted = wanted_t()
         contact%asked%times = .true.
-        select case (m)
-        case (1)
-            contact%methods%normal = normal_auto
-            contact%wanted%tolerance = never_met
-        case (2)
-            contact%methods%normal = normal_hertz
-            contact%methods%tangential = tangential_linear
-        case (3)
-            contact%methods%normal = normal_hertz
-            contact%methods%tangential = tangential_fastsim
-        case (5)
-            contact%methods%normal = normal_auto
-        end select
+        contact%methods%normal = normal_methods(m)
+        contact%methods%tangential = tangential_methods(m)
+        if (labels(m) == 'Kalker') contact%wanted%tolerance = never_met
     end subroutine choose
 end module faststrip_lab_grid_examples

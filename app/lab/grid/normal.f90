@@ -19,7 +19,7 @@ module faststrip_lab_grid_normal
     use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
                                       reserve_strip_workspace, set_strip_gap, strip_solve
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
-    use faststrip_normal_types, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t, cost_t
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_fastsim, only: fastsim_solve
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, scattered
@@ -217,7 +217,7 @@ contains
         type(normal_result_t) :: result
         type(status_t) :: status
         real(wp) :: us(most_runs), gap_us(most_runs), load
-        real(wp), dimension(most_runs) :: iterations, factorings, values, gradients, operations
+        type(cost_t) :: costs(most_runs)
         real(wp) :: from, between, to
         integer(int64) :: begin, now
         integer :: run, first
@@ -255,22 +255,18 @@ contains
             times%runs = run
             gap_us(run) = between - from
             us(run) = to - between
-            iterations(run) = result%cost%iterations
-            factorings(run) = result%cost%factorings
-            values(run) = result%cost%values
-            gradients(run) = result%cost%gradients
-            operations(run) = result%cost%operations
+            costs(run) = result%cost
             call system_clock(now)
             if (microseconds(begin, now) > budget_us .and. &
                 (run >= fewest_runs .or. us(run) > budget_us)) exit
         end do
         times%us = spread_of(us(:times%runs))
         times%gap_us = median(gap_us(:times%runs))
-        times%iterations = median(iterations(:times%runs))
-        times%factorings = median(factorings(:times%runs))
-        times%values = median(values(:times%runs))
-        times%gradients = median(gradients(:times%runs))
-        times%operations = median(operations(:times%runs))
+        times%iterations = median(real(costs(:times%runs)%iterations, wp))
+        times%factorings = median(real(costs(:times%runs)%factorings, wp))
+        times%values = median(real(costs(:times%runs)%values, wp))
+        times%gradients = median(real(costs(:times%runs)%gradients, wp))
+        times%operations = median(real(costs(:times%runs)%operations, wp))
     end subroutine measure_start
 
     !> Time of one influence coefficient of a solved contact, ns: on the centre lines and at the

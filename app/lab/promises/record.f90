@@ -24,6 +24,7 @@ module faststrip_lab_promises_record
     character(len=20), parameter :: figure_columns(n_figures) = [character(len=20) :: &
         'penetration_mm', 'pmax_MPa', 'area_mm2', 'Fx_N', 'Fy_N', 'Mz_Nmm', 'friction_power_N', &
         'stick_fraction']
+    character(len=20), parameter :: doubt_columns(n_figures) = 'doubt_' // figure_names
     character(len=20), parameter :: heads(4) = [character(len=20) :: &
         'kind', 'number', 'state', 'patches']
     character(len=20), parameter :: case_columns(7) = [character(len=20) :: &
@@ -66,15 +67,9 @@ contains
     subroutine put_truth_header(writer)
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
-        call put_header(writer, [heads, case_columns, figure_columns, doubt_columns(), &
+        call put_header(writer, [heads, case_columns, figure_columns, doubt_columns, &
                                  extent_columns])
     end subroutine put_truth_header
-
-    pure function doubt_columns() result(names)
-        character(len=20) :: names(n_figures)
-
-        names = 'doubt_' // figure_names
-    end function doubt_columns
 
     !> One row, six digits of each number, two of each doubt.
     subroutine put_truth(writer, record)
@@ -136,7 +131,7 @@ contains
         record%material = material_t(numbers(3), numbers(3), numbers(4), numbers(4))
         record%creepage = creepage_t(numbers(5), numbers(6), numbers(7))
         call take_numbers(figure_columns, record%figures)
-        call take_numbers(doubt_columns(), record%doubts)
+        call take_numbers(doubt_columns, record%doubts)
         call take_numbers(extent_columns, record%extents)
 
     contains

@@ -9,14 +9,15 @@ module faststrip_lab_studies_reference
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
-    use faststrip_base_material, only: material_t, normal_compliance
-    use faststrip_normal_strip, only: strip_options_t, strip_workspace_t, &
-                                      reserve_strip_workspace, set_strip_gap, strip_solve
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
+    use faststrip_base_material, only: normal_compliance
+    use faststrip_contact_method, only: workspace_t
+    use faststrip_geometry_gap, only: gap_t
+    use faststrip_normal_strips, only: usual_strips
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        release_norm, set_norm_gap, norm_solve
     use faststrip_normal_types, only: normal_result_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases, scattered
+    use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_studies_reference_tang, only: measure_tang
     use faststrip_command_program_clock, only: microseconds, cpu_microseconds, median, spread_of, &
                                                spread_text, spread_names, cpu_columns
@@ -47,11 +48,8 @@ module faststrip_lab_studies_reference
 
     !> The contacts, and what solves them.
     type :: bench_t
-        type(material_t) :: material
         type(bench_case_t), allocatable :: cases(:)
-        integer :: points = 0 ! of the longest gap
-        type(strip_workspace_t) :: workspace
-        type(contact_strips_t) :: strips
+        type(workspace_t) :: workspace
     end type bench_t
 
     !> What was measured of one contact.
@@ -79,13 +77,6 @@ contains
         integer :: i
 
         call read_bench_cases(folder, bench%cases)
-        do i = 1, size(bench%cases)
-            bench%points = max(bench%points, size(bench%cases(i)%gap%y))
-        end do
-        call reserve_strips(bench%strips, 100, status)
-        call fail_on_error(status)
-        call reserve_strip_workspace(bench%workspace, 100, bench%points, status)
-        call fail_on_error(status)
         call begin_table(writer, file)
         call put_header(writer, [character(len=13) :: 'method', 'start', 'tolerance', 'elements', &
                                  'us', 'iterations', 'convolutions', 'dx_mm', 'grid', 'flags', &
@@ -185,8 +176,11 @@ contains
         integer(int64) :: begin, now
         integer :: round, run
 
-        bench%strips%n = 0
-        if (start == strips) call solve_strips(bench, i)
+        bench%workspace%strips%n = 0
+        if (start == strips) then
+            call solve_by_strips(bench%workspace, bench%cases(i), usual_strips, result, status)
+            call fail_on_error(status)
+        end if
         options = norm_options_t(dx=dx, dy=dx, tolerance=tolerance, two_levels=start == coarse)
         call system_clock(begin)
         ! Runs before the first make the plans, and the steps that the others alternate between.
@@ -195,10 +189,11 @@ contains
             load = bench%cases(i)%load
             if (start == warm_load .and. modulo(run, 2) == 0) load = load_factor*load
             options%warm_start = start == warm_load .and. run > -1
-            if (start == new_plans .or. run == -1) call reserve_workspace_of(bench, i, workspace)
+            if (start == new_plans .or. run == -1) &
+                call renew_workspace(bench%cases(i)%gap, workspace)
             from = cpu_microseconds()
-            call norm_solve(workspace, normal_compliance(bench%material), load, options, result, &
-                            status, bench%strips)
+            call norm_solve(workspace, normal_compliance(bench%cases(i)%material), load, options, &
+                            result, status, bench%workspace%strips)
             if (run >= 1) us(run) = cpu_microseconds() - from
             solved = .not. is_error(status)
             if (.not. solved) then
@@ -221,32 +216,16 @@ contains
     end subroutine measure_start
 
     !> A workspace without plans, with the gap of a contact.
-    subroutine reserve_workspace_of(bench, i, workspace)
-        type(bench_t), intent(in) :: bench
-        integer, intent(in) :: i
+    subroutine renew_workspace(gap, workspace)
+        type(gap_t), intent(in) :: gap
         type(norm_workspace_t), intent(inout) :: workspace ! INTENT(OUT) leaves stale sizes
 
         type(status_t) :: status
 
         call release_norm(workspace)
-        call reserve_norm(workspace, bench%points, status)
+        call reserve_norm(workspace, size(gap%y), status)
         call fail_on_error(status)
-        call set_norm_gap(workspace, bench%cases(i)%gap, status)
+        call set_norm_gap(workspace, gap, status)
         call fail_on_error(status)
-    end subroutine reserve_workspace_of
-
-    !> The strips to start from.
-    subroutine solve_strips(bench, i)
-        type(bench_t), intent(inout) :: bench
-        integer, intent(in) :: i
-
-        type(normal_result_t) :: result
-        type(status_t) :: status
-
-        call set_strip_gap(bench%workspace, bench%cases(i)%gap, status)
-        call fail_on_error(status)
-        call strip_solve(bench%workspace, normal_compliance(bench%material), bench%cases(i)%load, &
-                         strip_options_t(), bench%strips, result, status)
-        call fail_on_error(status)
-    end subroutine solve_strips
+    end subroutine renew_workspace
 end module faststrip_lab_studies_reference
