@@ -112,7 +112,6 @@ contains
         type(bench_case_t), allocatable :: cases(:)
         type(case_t) :: case
         type(prepared_case_t) :: prepared
-        type(status_t) :: status
         integer :: i
 
         call read_bench_cases(folder, cases)

@@ -47,7 +47,9 @@ contains
         type(command_t) :: command
         type(csv_writer_t) :: writer
         type(file_t), allocatable :: files(:)
+        type(csv_table_t) :: table
         type(workspace_t) :: workspace
+        type(status_t) :: status
         integer :: file, row, strips, points
 
         command%name = 'force-features'
@@ -66,7 +68,13 @@ contains
         points = option_integer(command, '--points', default_points, least=1, most=most_points)
         allocate (files(size(command%arguments)))
         do file = 1, size(files)
-            call read_file(command%arguments(file)%text, files(file)%records)
+            call read_csv(command%arguments(file)%text, table, status)
+            call fail_on_error(status)
+            allocate (files(file)%records(table%n_rows))
+            do row = 1, table%n_rows
+                call take_record(table, row, files(file)%records(row), status)
+                call fail_on_error(status)
+            end do
         end do
         call begin_table(writer, option_text(command, '-o', '-'))
         call put_comment(writer, 'FASTSTRIP, ' // integer_text(strips) // ' x ' &
@@ -98,24 +106,6 @@ contains
         end do
         call end_table(writer)
     end subroutine run_force_features
-
-    !> All contacts of a file; ends the program if it cannot be read.
-    subroutine read_file(path, records)
-        character(len=*), intent(in) :: path
-        type(force_record_t), allocatable, intent(out) :: records(:)
-
-        type(csv_table_t) :: table
-        type(status_t) :: status
-        integer :: row
-
-        call read_csv(path, table, status)
-        call fail_on_error(status)
-        allocate (records(table%n_rows))
-        do row = 1, table%n_rows
-            call take_record(table, row, records(row), status)
-            call fail_on_error(status)
-        end do
-    end subroutine read_file
 
     !> The rows of one contact, unless its strips tell of several patches or of a limitation.
     subroutine put_contact(writer, workspace, record, strips, points)

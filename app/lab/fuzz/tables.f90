@@ -33,7 +33,11 @@ contains
                          // broken_judges(verdicts(i)) // '; ' &
                          // trim(verdicts(i)%status%message))
         end do
-        call print_table(family, verdicts, is_bad)
+        call say('family        status                    cases    share   failed checks')
+        call print_rows('all', verdicts, is_bad, family > 0)
+        do i = 1, size(all_families)
+            call print_rows(all_families(i), verdicts, is_bad, family == i)
+        end do
         call print_judges(numbers, verdicts)
         call print_times(numbers, verdicts)
         call print_worst('slowest, ms', numbers, verdicts, 1.0e-3_wp*verdicts%time_us)
@@ -114,22 +118,7 @@ contains
         end do
     end subroutine read_verdicts
 
-    !> Family by family, how the cases ended.
-    subroutine print_table(family, verdicts, is_bad)
-        integer, intent(in) :: family(:)
-        type(verdict_t), intent(in) :: verdicts(:)
-        logical, intent(in) :: is_bad(:) ! did a case fail a check?
-
-        integer :: f
-
-        call say('family        status                    cases    share   failed checks')
-        call print_rows('all', verdicts, is_bad, family > 0)
-        do f = 1, size(all_families)
-            call print_rows(all_families(f), verdicts, is_bad, family == f)
-        end do
-    end subroutine print_table
-
-    !> The lines of one family, or of all.
+    !> How the cases of one family, or of all, ended.
     subroutine print_rows(name, verdicts, is_bad, counts)
         character(len=*), intent(in) :: name
         type(verdict_t), intent(in) :: verdicts(:)

@@ -12,7 +12,6 @@ module faststrip_lab_grid_errors
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
                                    put_empty_cells, end_row
     use faststrip_base_material, only: normal_compliance
-    use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
     use faststrip_normal_strip, only: strips_auto
@@ -150,7 +149,9 @@ contains
         real(wp), parameter :: place(5) = [0.0_wp, 1.0_wp, 2.0_wp, 4.0_wp, 6.0_wp]
         real(wp), parameter :: half(3) = [1.0_wp, 3.0_wp, 3.0_wp]
         real(wp), parameter :: radius(3) = [80.0_wp, 80.0_wp, 20.0_wp]
-        integer :: i, l, n
+        integer, parameter :: points = 2001
+        real(wp), parameter :: half_width = 20.0_wp, inv2r = 1.0_wp/920.0_wp
+        integer :: i, k, l, n
 
         n = merge(size(place), size(half), kind == 1)
         allocate (contacts(size(loads)*n))
@@ -160,7 +161,8 @@ contains
                     one%load = loads(l)
                     one%set = trim(sets(kind))
                     one%name = integer_text(i) // '_' // integer_text(l)
-                    call make_flat_gap(one%gap)
+                    one%gap%y = [(half_width*(2.0_wp*(k - 1)/(points - 1) - 1.0_wp), k=1, points)]
+                    allocate (one%gap%h(points), one%gap%inv2r(points), source=inv2r)
                     associate (y => one%gap%y, h => one%gap%h)
                         if (kind == 1) then
                             h = y**2/600.0_wp
@@ -174,18 +176,6 @@ contains
             end do
         end do
     end subroutine make_shapes
-
-    subroutine make_flat_gap(gap)
-        type(gap_t), intent(out) :: gap
-
-        integer, parameter :: points = 2001
-        real(wp), parameter :: half_width = 20.0_wp, inv2r = 1.0_wp/920.0_wp
-        integer :: i
-
-        gap%y = [(half_width*(2.0_wp*(i - 1)/(points - 1) - 1.0_wp), i=1, points)]
-        allocate (gap%h(points), source=0.0_wp)
-        allocate (gap%inv2r(points), source=inv2r)
-    end subroutine make_flat_gap
 
     !> Judge contacts by many strips; those that cannot be solved so are left out, and named.
     subroutine judge_by_strips(bench, contacts, strips)

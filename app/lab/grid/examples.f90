@@ -21,6 +21,7 @@ module faststrip_lab_grid_examples
 
     character(len=*), parameter :: labels(5) = [character(len=22) :: 'Kalker', &
         'Hertz + linear', 'Hertz + FASTSIM', 'strips 15 + FASTSTRIP', 'auto 2 %']
+    real(wp), parameter :: never_met = 1.0e-9_wp
     integer, parameter :: normal_methods(5) = [normal_auto, normal_hertz, normal_hertz, &
                                                normal_strip, normal_auto]
     integer, parameter :: tangential_methods(5) = [tangential_faststrip, tangential_linear, &
@@ -50,7 +51,11 @@ contains
             do m = 1, size(labels)
                 call new_solver(solver, status)
                 call fail_on_error(status)
-                call choose(m, prepared)
+                prepared%methods = contact_methods_t(normal=normal_methods(m), &
+                                                     tangential=tangential_methods(m))
+                prepared%wanted = wanted_t()
+                if (labels(m) == 'Kalker') prepared%wanted%tolerance = never_met
+                prepared%asked%times = .true.
                 ! The second time nothing has to be allocated or planned.
                 do run = 1, 2
                     call solve(solver, prepared, result, status)
@@ -68,19 +73,4 @@ contains
         end do
         call end_table(writer)
     end subroutine bench_examples
-
-    !> The methods behind a label.
-    subroutine choose(m, contact)
-        integer, intent(in) :: m
-        type(prepared_case_t), intent(inout) :: contact
-
-        real(wp), parameter :: never_met = 1.0e-9_wp
-
-        contact%methods = contact_methods_t()
-        contact%wanted = wanted_t()
-        contact%asked%times = .true.
-        contact%methods%normal = normal_methods(m)
-        contact%methods%tangential = tangential_methods(m)
-        if (labels(m) == 'Kalker') contact%wanted%tolerance = never_met
-    end subroutine choose
 end module faststrip_lab_grid_examples

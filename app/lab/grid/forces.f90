@@ -55,7 +55,6 @@ contains
         type(bench_case_t), allocatable :: cases(:)
         type(csv_writer_t) :: writer
         type(tally_t) :: tally
-        type(status_t) :: status
 
         ! Read before anything is written.
         call read_scene_cases(scenes, cases)
@@ -120,7 +119,6 @@ contains
         type(tally_t), intent(out) :: tally
 
         type(bench_case_t), allocatable :: cases(:)
-        type(status_t) :: status
 
         call read_bench_cases(folder, cases, signs)
         call compare_by_strips(cases, 's1002_uic60_' // signs, writer, tally)

@@ -65,7 +65,6 @@ contains
 
         type(bench_case_t), allocatable :: cases(:)
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         type(run_t), allocatable :: runs(:, :)
         integer :: k, i
 

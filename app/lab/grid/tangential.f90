@@ -49,7 +49,6 @@ contains
         type(bench_case_t), allocatable :: cases(:)
         type(times_t), allocatable :: times(:)
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i, k
 
         call read_bench_cases(folder, cases)

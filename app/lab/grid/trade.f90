@@ -53,7 +53,6 @@ contains
         type(method_entry_t), allocatable :: entries(:)
         type(bench_case_t), allocatable :: wheelset(:), hertz(:), scenes(:)
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i
 
         call read_method_list(methods_file, entries)

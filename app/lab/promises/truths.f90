@@ -31,7 +31,6 @@ contains
     subroutine run_truth()
         type(command_t) :: command
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         type(truth_workspace_t) :: work
         type(bench_case_t), allocatable :: ellipses(:)
         character(len=:), allocatable :: name

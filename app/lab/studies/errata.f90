@@ -397,7 +397,6 @@ contains
 
         type(contact_strips_t) :: strips
         type(march_sum_t) :: total
-        type(status_t) :: status
         real(wp) :: shift
         character(len=60) :: what
         integer :: i

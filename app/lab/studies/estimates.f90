@@ -183,7 +183,6 @@ contains
         type(studied_case_t) :: contact
         type(truth_t) :: truth
         logical :: is_found
-        type(status_t) :: status
         integer :: i
 
         call read_bench_cases(in_checkout('reference/contact'), cases)

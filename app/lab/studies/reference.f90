@@ -11,7 +11,6 @@ module faststrip_lab_studies_reference
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_base_material, only: normal_compliance
     use faststrip_contact_method, only: workspace_t
-    use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_strips, only: usual_strips
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        release_norm, set_norm_gap, norm_solve
@@ -73,7 +72,6 @@ contains
 
         type(bench_t) :: bench
         type(csv_writer_t) :: writer
-        type(status_t) :: status
         integer :: i
 
         call read_bench_cases(folder, bench%cases)
@@ -189,8 +187,13 @@ contains
             load = bench%cases(i)%load
             if (start == warm_load .and. modulo(run, 2) == 0) load = load_factor*load
             options%warm_start = start == warm_load .and. run > -1
-            if (start == new_plans .or. run == -1) &
-                call renew_workspace(bench%cases(i)%gap, workspace)
+            if (start == new_plans .or. run == -1) then
+                call release_norm(workspace)
+                call reserve_norm(workspace, size(bench%cases(i)%gap%y), status)
+                call fail_on_error(status)
+                call set_norm_gap(workspace, bench%cases(i)%gap, status)
+                call fail_on_error(status)
+            end if
             from = cpu_microseconds()
             call norm_solve(workspace, normal_compliance(bench%cases(i)%material), load, options, &
                             result, status, bench%workspace%strips)
@@ -214,18 +217,4 @@ contains
         times%elements = nint(result%area/dx**2)
         times%grid = workspace%grid%nx*workspace%grid%ny
     end subroutine measure_start
-
-    !> A workspace without plans, with the gap of a contact.
-    subroutine renew_workspace(gap, workspace)
-        type(gap_t), intent(in) :: gap
-        type(norm_workspace_t), intent(inout) :: workspace ! INTENT(OUT) leaves stale sizes
-
-        type(status_t) :: status
-
-        call release_norm(workspace)
-        call reserve_norm(workspace, size(gap%y), status)
-        call fail_on_error(status)
-        call set_norm_gap(workspace, gap, status)
-        call fail_on_error(status)
-    end subroutine renew_workspace
 end module faststrip_lab_studies_reference
