@@ -2,11 +2,11 @@
 !> the last call, in one piece that the caller makes and frees, and names by a number of the
 !> register.
 module faststrip_interop_handle
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_intptr_t, c_loc, c_f_pointer
+    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int, c_intptr_t, c_loc, c_ptr
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_friction, only: check_friction, friction_at_angle
-    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
-                                     st_not_finite, st_workspace_too_small
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_not_finite, &
+                                     st_workspace_too_small, st_ok
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
@@ -81,16 +81,18 @@ contains
     end subroutine free_handle
 
     !> The handle of a number.
-    subroutine find_handle(number, handle, status)
+    subroutine find_handle(number, handle, code)
         integer(c_intptr_t), intent(in) :: number      !! as the caller passed it
         type(handle_t), pointer, intent(out) :: handle !! null if it is none
-        type(status_t), intent(out) :: status          !! `st_bad_argument`: no handle, or freed
+        integer(c_int), intent(out) :: code !! `st_bad_argument`: no handle, or freed
 
         type(c_ptr) :: address
+        type(status_t) :: status
 
         handle => null()
         call look_up_register(number, kind_contact, address, status)
-        if (.not. is_error(status)) call c_f_pointer(address, handle)
+        code = status%code
+        if (code == st_ok) call c_f_pointer(address, handle)
     end subroutine find_handle
 
     !> Hand a gap over.

@@ -61,16 +61,18 @@ contains
     end subroutine free_lookup
 
     !> The table of a number.
-    subroutine find_lookup(number, lookup, status)
+    subroutine find_lookup(number, lookup, code)
         integer(c_intptr_t), intent(in) :: number       !! as the caller passed it
         type(lookup_t), pointer, intent(out) :: lookup  !! null if it is none
-        type(status_t), intent(out) :: status           !! `st_bad_argument`: no table, or freed
+        integer(c_int), intent(out) :: code !! `st_bad_argument`: no table, or freed
 
         type(c_ptr) :: address
+        type(status_t) :: status
 
         lookup => null()
         call look_up_register(number, kind_lookup, address, status)
-        if (.not. is_error(status)) call c_f_pointer(address, lookup)
+        code = status%code
+        if (code == st_ok) call c_f_pointer(address, lookup)
     end subroutine find_lookup
 
     !> Forces of many states; the status of the first that fails.

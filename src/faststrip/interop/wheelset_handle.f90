@@ -2,7 +2,7 @@
 module faststrip_interop_wheelset_handle
     use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_ptr, c_f_pointer
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
-                                     st_bad_argument, st_workspace_too_small
+                                     st_bad_argument, st_workspace_too_small, st_ok
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
     use faststrip_interop_solution, only: mirror_t
@@ -63,16 +63,18 @@ contains
     end subroutine free_wheelset
 
     !> The wheelset of a number.
-    subroutine find_wheelset(number, handle, status)
+    subroutine find_wheelset(number, handle, code)
         integer(c_intptr_t), intent(in) :: number               !! as the caller passed it
         type(wheelset_handle_t), pointer, intent(out) :: handle !! null if it is none
-        type(status_t), intent(out) :: status !! `st_bad_argument`: no wheelset, or freed
+        integer(c_int), intent(out) :: code !! `st_bad_argument`: no wheelset, or freed
 
         type(c_ptr) :: address
+        type(status_t) :: status
 
         handle => null()
         call look_up_register(number, kind_wheelset, address, status)
-        if (.not. is_error(status)) call c_f_pointer(address, handle)
+        code = status%code
+        if (code == st_ok) call c_f_pointer(address, handle)
     end subroutine find_wheelset
 
     !> Which wheels a caller asks for.

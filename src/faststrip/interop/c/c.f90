@@ -56,11 +56,9 @@ contains
         integer(c_size_t), value :: length   !! with the closing zero
 
         type(handle_t), pointer :: handle
-        type(status_t) :: status
 
-        call find_handle(workspace, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_handle(workspace, handle, code)
+        if (code /= st_ok) return
         code = put_text(trim(handle%status%message), text, length)
     end function faststrip_last_message
 
@@ -136,14 +134,11 @@ contains
         integer(c_intptr_t), value :: to   !! another one
 
         type(handle_t), pointer :: source, target
-        type(status_t) :: status
 
-        call find_handle(from, source, status)
-        code = status%code
-        if (is_error(status)) return
-        call find_handle(to, target, status)
-        code = status%code
-        if (is_error(status) .or. from == to) return
+        call find_handle(from, source, code)
+        if (code /= st_ok) return
+        call find_handle(to, target, code)
+        if (code /= st_ok .or. from == to) return
         call copy_handle(source, target)
     end function faststrip_copy
 
@@ -156,11 +151,9 @@ contains
         type(c_ptr), value :: inclination        !! `n` numbers, rad, or null: not known
 
         type(handle_t), pointer :: handle
-        type(status_t) :: status
 
-        call find_handle(workspace, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_handle(workspace, handle, code)
+        if (code /= st_ok) return
         call take_gap(handle, n, y, h, inv2r, inclination)
         code = handle%status%code
     end function faststrip_set_gap
@@ -174,11 +167,9 @@ contains
         type(handle_t), pointer :: handle
         type(c_case_t), pointer :: fields
         type(c_result_t), pointer :: figures
-        type(status_t) :: status
 
-        call find_handle(workspace, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_handle(workspace, handle, code)
+        if (code /= st_ok) return
         call find_case(case, fields, handle%status)
         if (.not. (is_error(handle%status) .or. c_associated(result))) &
             call set_status(handle%status, st_bad_argument, 'the result is missing')
@@ -200,11 +191,9 @@ contains
         type(c_ptr), value :: patch                            !! number of the patch, written
 
         type(handle_t), pointer :: handle
-        type(status_t) :: status
 
-        call find_handle(workspace, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_handle(workspace, handle, code)
+        if (code /= st_ok) return
         call write_strips(handle%workspace, mirror_t(), capacity, n, &
                           [y_left, y_right, half_length, p0, patch], handle%status)
         code = handle%status%code
@@ -225,11 +214,9 @@ contains
         type(c_ptr), value :: state     !! 1 adhesion, 2 slip, written
 
         type(handle_t), pointer :: handle
-        type(status_t) :: status
 
-        call find_handle(workspace, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_handle(workspace, handle, code)
+        if (code /= st_ok) return
         call write_elements(handle%workspace, mirror_t(), capacity, n, &
                             [x, y, area, pn, px, py, sx, sy, state], handle%status)
         code = handle%status%code
@@ -250,12 +237,10 @@ contains
         type(c_ptr), value :: normal_us, tangential_us !! times, us, written
 
         type(handle_t), pointer :: handle
-        type(status_t) :: status
         integer :: count
 
-        call find_handle(workspace, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_handle(workspace, handle, code)
+        if (code /= st_ok) return
         count = handle%workspace%steps%n
         call check_capacity(capacity, count, n, &
                             [normal, tangential, strips, points, estimate, normal_us, &

@@ -2,8 +2,7 @@
 module faststrip_interop_c_doubts
     use, intrinsic :: iso_c_binding, only: c_int, c_char, c_size_t, c_ptr, c_intptr_t, &
                                            c_associated, c_f_pointer, c_null_char
-    use faststrip_base_status, only: status_t, is_error, message_length, st_ok, st_bad_argument, &
-                                     st_workspace_too_small
+    use faststrip_base_status, only: message_length, st_ok, st_bad_argument, st_workspace_too_small
     use faststrip_contact_plausible, only: doubts_t
     use faststrip_interop_handle, only: handle_t, find_handle
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset
@@ -50,18 +49,16 @@ contains
 
         type(handle_t), pointer :: contact
         type(wheelset_handle_t), pointer :: wheelset
-        type(status_t) :: status
 
         words = ''
         n = 0
-        call find_handle(number, contact, status)
+        call find_handle(number, contact, code)
         if (associated(contact)) then
             call take_words(contact%doubts, i, words, n)
         else
-            call find_wheelset(number, wheelset, status)
+            call find_wheelset(number, wheelset, code)
             if (associated(wheelset)) call take_words(wheelset%doubts, i, words, n)
         end if
-        code = merge(status%code, st_ok, is_error(status))
     end subroutine find_words
 
     pure subroutine take_words(doubts, i, words, n)

@@ -4,7 +4,7 @@ module faststrip_interop_c_lookup
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t, c_size_t, c_ptr, &
                                            c_associated, c_f_pointer
     use, intrinsic :: iso_fortran_env, only: int8
-    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument, st_ok
+    use faststrip_base_status, only: status_t, set_status, st_bad_argument, st_ok
     use faststrip_interop_c, only: put_text, numbers_at
     use faststrip_interop_lookup_handle, only: new_lookup, free_lookup, find_lookup, &
                                                look_up_states, describe_lookup, n_about
@@ -72,11 +72,9 @@ contains
 
         type(lookup_t), pointer :: table
         real(c_double), pointer :: found(:)
-        type(status_t) :: status
 
-        call find_lookup(lookup, table, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_lookup(lookup, table, code)
+        if (code /= st_ok) return
         code = st_bad_argument
         if (.not. c_associated(numbers) .or. table%kind /= lookup_kind_hertz) return
         found => numbers_at(numbers, n_about)
@@ -100,9 +98,8 @@ contains
         integer(c_int), pointer :: states_codes(:)
         type(status_t) :: status
 
-        call find_lookup(lookup, table, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_lookup(lookup, table, code)
+        if (code /= st_ok) return
         code = st_bad_argument
         if (n < 0) return
         if (.not. (c_associated(states) .and. c_associated(forces))) return

@@ -3,7 +3,7 @@
 module faststrip_interop_c_lookup_wheel
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t, c_ptr, c_associated, &
                                            c_f_pointer
-    use faststrip_base_status, only: status_t, is_error, st_bad_argument, st_ok
+    use faststrip_base_status, only: status_t, st_bad_argument, st_ok
     use faststrip_interop_c, only: numbers_at
     use faststrip_interop_lookup_handle, only: find_lookup, find_contacts, look_up_wheels, &
                                                describe_wheel, n_about_wheel
@@ -43,11 +43,8 @@ contains
         type(lookup_t), pointer, intent(out) :: table
         integer(c_int), intent(out) :: code
 
-        type(status_t) :: status
-
-        call find_lookup(lookup, table, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_lookup(lookup, table, code)
+        if (code /= st_ok) return
         if (table%kind /= lookup_kind_wheel) code = st_bad_argument
     end subroutine find_wheel
 

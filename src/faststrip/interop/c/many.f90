@@ -165,6 +165,7 @@ contains
         type(many_t), pointer :: many
         type(worker_t) :: worker
         type(status_t) :: status
+        integer(c_int) :: code
         integer(c_intptr_t) :: number
         integer(c_size_t) :: first, last, i
 
@@ -181,7 +182,7 @@ contains
         call unlock_mutex(many%mutex)
         ! The others do what there is to do.
         if (is_error(status)) return
-        call find_handle(number, worker%handle, status)
+        call find_handle(number, worker%handle, code)
         do
             call lock_mutex(many%mutex)
             first = many%taken + 1

@@ -4,7 +4,7 @@ module faststrip_interop_c_profiles
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_intptr_t, c_ptr, &
                                            c_associated, c_f_pointer
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
-                                     st_bad_argument, st_workspace_too_small
+                                     st_bad_argument, st_workspace_too_small, st_ok
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_touchable, only: body_wheel, body_rail
     use faststrip_interop_c, only: put_text, numbers_at
@@ -92,12 +92,10 @@ contains
         type(c_ptr), value :: y, h, inv2r, inclination  !! mm, mm, 1/mm, rad, written
 
         type(wheelset_handle_t), pointer :: handle
-        type(status_t) :: status
         integer :: side, k
 
-        call find_wheelset(wheelset, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_wheelset(wheelset, handle, code)
+        if (code /= st_ok) return
         call check_arrays(capacity, [n, y, h, inv2r, inclination], handle%status)
         if (.not. is_error(handle%status) .and. (i < 0 .or. i >= contact_count(handle))) &
             call set_status(handle%status, st_bad_argument, 'there is no such contact: ' // &

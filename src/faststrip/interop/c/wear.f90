@@ -4,7 +4,7 @@ module faststrip_interop_c_wear
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t, c_ptr, c_associated, &
                                            c_f_pointer
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
-                                     st_bad_argument
+                                     st_bad_argument, st_ok
     use faststrip_interop_c, only: check_capacity, numbers_at
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_interop_handle, only: handle_t, find_handle
@@ -44,11 +44,9 @@ contains
 
         type(handle_t), pointer :: handle
         type(law_t) :: wanted
-        type(status_t) :: status
 
-        call find_handle(workspace, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_handle(workspace, handle, code)
+        if (code /= st_ok) return
         call clear_figures(figures)
         call read_law(law, figures, wanted, handle%status)
         if (.not. is_error(handle%status)) &
@@ -69,12 +67,10 @@ contains
 
         type(wheelset_handle_t), pointer :: handle
         type(law_t) :: wanted
-        type(status_t) :: status
         integer :: side, k
 
-        call find_wheelset(wheelset, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_wheelset(wheelset, handle, code)
+        if (code /= st_ok) return
         call clear_figures(figures)
         call find_contact(handle, i + 1, side, k)
         if (.not. is_error(handle%status)) call read_law(law, figures, wanted, handle%status)
@@ -102,11 +98,9 @@ contains
         type(c_ptr), value :: depth              !! depth when rolled over once, mm, written
 
         type(handle_t), pointer :: handle
-        type(status_t) :: status
 
-        call find_handle(workspace, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_handle(workspace, handle, code)
+        if (code /= st_ok) return
         call write_strip_wear(handle%workspace, handle%result, mirror_t(), law, capacity, n, &
                               [fx, fy, power, t_gamma, mass, depth], handle%status)
         code = handle%status%code
@@ -128,12 +122,10 @@ contains
         type(c_ptr), value :: depth              !! depth when rolled over once, mm, written
 
         type(wheelset_handle_t), pointer :: handle
-        type(status_t) :: status
         integer :: side, k
 
-        call find_wheelset(wheelset, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_wheelset(wheelset, handle, code)
+        if (code /= st_ok) return
         call find_contact(handle, i + 1, side, k)
         if (.not. is_error(handle%status)) &
             call write_strip_wear(handle%workspace%wheel(side)%contact(k), &

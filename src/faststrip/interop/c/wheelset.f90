@@ -143,11 +143,9 @@ contains
         integer(c_size_t), value :: length     !! with the closing zero
 
         type(wheelset_handle_t), pointer :: handle
-        type(status_t) :: status
 
-        call find_wheelset(wheelset, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_wheelset(wheelset, handle, code)
+        if (code /= st_ok) return
         code = put_text(trim(handle%status%message), text, length)
     end function faststrip_wheelset_last_message
 
@@ -169,12 +167,10 @@ contains
         type(c_totals_t), pointer :: wheels
         integer(c_int), pointer :: number
         type(wheelset_demand_t) :: prescribed
-        type(status_t) :: status
         integer :: i, side, k
 
-        call find_wheelset(wheelset, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_wheelset(wheelset, handle, code)
+        if (code /= st_ok) return
         call clear_status(handle%status)
         if (.not. (c_associated(state) .and. c_associated(demand) .and. c_associated(n) &
                    .and. c_associated(contacts) .and. c_associated(result))) then
@@ -224,12 +220,10 @@ contains
         type(c_ptr), value :: patch                            !! number of the patch, written
 
         type(wheelset_handle_t), pointer :: handle
-        type(status_t) :: status
         integer :: side, k
 
-        call find_wheelset(wheelset, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_wheelset(wheelset, handle, code)
+        if (code /= st_ok) return
         call find_contact(handle, i + 1, side, k)
         if (.not. is_error(handle%status)) &
             call write_strips(handle%workspace%wheel(side)%contact(k), &
@@ -254,12 +248,10 @@ contains
         type(c_ptr), value :: state            !! 1 adhesion, 2 slip, written
 
         type(wheelset_handle_t), pointer :: handle
-        type(status_t) :: status
         integer :: side, k
 
-        call find_wheelset(wheelset, handle, status)
-        code = status%code
-        if (is_error(status)) return
+        call find_wheelset(wheelset, handle, code)
+        if (code /= st_ok) return
         call find_contact(handle, i + 1, side, k)
         if (.not. is_error(handle%status)) &
             call write_elements(handle%workspace%wheel(side)%contact(k), &

@@ -245,7 +245,7 @@ contains
 
         type(handle_t), pointer :: handle
 
-        call find(iwork, handle, info)
+        call find_handle(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
         if (n < 0) then
             call set_status(handle%status, st_bad_argument, 'the number of gap points must ' // &
@@ -269,7 +269,7 @@ contains
         type(handle_t), pointer :: handle
 
         res = 0.0_c_double
-        call find(iwork, handle, info)
+        call find_handle(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
         call check_choices(iopt, handle%status)
         info = handle%status%code
@@ -314,7 +314,7 @@ contains
         type(handle_t), pointer :: handle
 
         n = 0
-        call find(iwork, handle, info)
+        call find_handle(number_of(iwork), handle, info)
         if (associated(handle)) &
             call copy_strips(handle%workspace, mirror_t(), capacity, n, y_left, y_right, &
                              half_length, p0, patch, info)
@@ -361,7 +361,7 @@ contains
         type(handle_t), pointer :: handle
 
         n = 0
-        call find(iwork, handle, info)
+        call find_handle(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
         n = handle%workspace%field%n
         if (capacity < n) info = st_workspace_too_small
@@ -383,7 +383,7 @@ contains
 
         type(handle_t), pointer :: handle
 
-        call find(iwork, handle, info)
+        call find_handle(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
         call check_resolution(limit, 'the resolution limit', handle%status)
         info = handle%status%code
@@ -404,7 +404,7 @@ contains
         type(handle_t), pointer :: handle
 
         err = 0.0_c_double
-        call find(iwork, handle, info)
+        call find_handle(number_of(iwork), handle, info)
         if (associated(handle)) err = err_of(handle)
     end subroutine fserrs
 
@@ -419,7 +419,7 @@ contains
         type(handle_t), pointer :: handle
 
         ferr = 0.0_c_double
-        call find(iwork, handle, info)
+        call find_handle(number_of(iwork), handle, info)
         if (associated(handle)) ferr = ferr_of(handle)
     end subroutine fsferr
 
@@ -435,7 +435,7 @@ contains
         type(handle_t), pointer :: handle
 
         lset = 0
-        call find(iwork, handle, info)
+        call find_handle(number_of(iwork), handle, info)
         if (associated(handle)) lset = handle%limitations
     end subroutine fslset
 
@@ -482,7 +482,7 @@ contains
         type(handle_t), pointer :: handle
 
         takn = 0.0_c_double
-        call find(iwork, handle, info)
+        call find_handle(number_of(iwork), handle, info)
         if (associated(handle)) takn = takn_of(handle)
     end subroutine fstakn
 
@@ -507,7 +507,7 @@ contains
         type(handle_t), pointer :: handle
 
         n = 0
-        call find(iwork, handle, info)
+        call find_handle(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
         n = handle%workspace%steps%n
         if (capacity < n) then
@@ -529,9 +529,9 @@ contains
 
         type(handle_t), pointer :: source, target
 
-        call find(from, source, info)
+        call find_handle(number_of(from), source, info)
         if (.not. associated(source)) return
-        call find(to, target, info)
+        call find_handle(number_of(to), target, info)
         if (.not. associated(target)) return
         if (.not. associated(source, target)) call copy_handle(source, target)
     end subroutine fscopy
@@ -611,18 +611,6 @@ contains
                             'FASTSIM must have rows; INTEGER must be four bytes, see FSINTS')
     end subroutine check_choices
 
-    !> The handle in a workspace array; null, and an error, if there is none.
-    subroutine find(iwork, handle, info)
-        integer(c_int), intent(in) :: iwork(n_iwork)
-        type(handle_t), pointer, intent(out) :: handle
-        integer(c_int), intent(out) :: info
-
-        type(status_t) :: status
-
-        call find_handle(number_of(iwork), handle, status)
-        info = status%code
-    end subroutine find
-
     !> What a workspace array stands for: one of both, or an error.
     subroutine find_either(iwork, handle, wheelset, info)
         integer(c_int), intent(in) :: iwork(n_iwork)                 !! made by FSINIT or FSWNEW
@@ -630,12 +618,9 @@ contains
         type(wheelset_handle_t), pointer, intent(out) :: wheelset    !! of FSWNEW, or null
         integer(c_int), intent(out) :: info                          !! status
 
-        type(status_t) :: status
-
-        call find_handle(number_of(iwork), handle, status)
+        call find_handle(number_of(iwork), handle, info)
         wheelset => null()
-        if (is_error(status)) call find_wheelset(number_of(iwork), wheelset, status)
-        info = status%code
+        if (info /= st_ok) call find_wheelset(number_of(iwork), wheelset, info)
     end subroutine find_either
 
     !> Put the number of a handle between its marks.

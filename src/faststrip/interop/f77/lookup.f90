@@ -74,11 +74,9 @@ contains
         integer(c_int), intent(out) :: info             !! status
 
         type(lookup_t), pointer :: lookup
-        type(status_t) :: status
 
         about = 0.0_c_double
-        call find_lookup(number_of(iwork), lookup, status)
-        info = status%code
+        call find_lookup(number_of(iwork), lookup, info)
         if (.not. associated(lookup)) return
         if (lookup%kind /= lookup_kind_hertz) info = st_bad_argument
         about = describe_lookup(lookup)
@@ -102,8 +100,7 @@ contains
         type(lookup_t), pointer :: lookup
         type(status_t) :: status
 
-        call find_lookup(number_of(iwork), lookup, status)
-        info = status%code
+        call find_lookup(number_of(iwork), lookup, info)
         if (.not. associated(lookup)) return
         info = st_bad_argument
         if (n < 0) return

@@ -54,10 +54,7 @@ contains
         type(lookup_t), pointer, intent(out) :: lookup
         integer(c_int), intent(out) :: info
 
-        type(status_t) :: status
-
-        call find_lookup(number_of(iwork), lookup, status)
-        info = status%code
+        call find_lookup(number_of(iwork), lookup, info)
         if (.not. associated(lookup)) return
         if (lookup%kind == lookup_kind_wheel) return
         info = st_bad_argument

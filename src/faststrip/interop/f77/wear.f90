@@ -17,7 +17,7 @@
 !> ```
 module faststrip_interop_f77_wear
     use, intrinsic :: iso_c_binding, only: c_int, c_double
-    use faststrip_base_status, only: status_t, is_error, st_ok, st_workspace_too_small
+    use faststrip_base_status, only: is_error, st_ok, st_workspace_too_small
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_interop_f77, only: n_iwork, number_of, find_either
     use faststrip_interop_f77_wheelset, only: find_column
@@ -116,12 +116,10 @@ contains
         integer(c_int), intent(out) :: info              !! status
 
         type(handle_t), pointer :: handle
-        type(status_t) :: status
 
         n = 0
-        call find_handle(number_of(iwork), handle, status)
-        info = status%code
-        if (is_error(status)) return
+        call find_handle(number_of(iwork), handle, info)
+        if (info /= st_ok) return
         call contact_strip_wear(handle%workspace, handle%result, regimes(:, :n_regimes), density, &
                                 handle%status)
         info = handle%status%code

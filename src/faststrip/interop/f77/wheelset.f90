@@ -174,11 +174,9 @@ contains
         integer(c_int), intent(out) :: info          !! status
 
         type(wheelset_handle_t), pointer :: handle
-        type(status_t) :: status
 
-        call find_wheelset(number_of(iwork), handle, status)
-        info = status%code
-        if (is_error(status)) return
+        call find_wheelset(number_of(iwork), handle, info)
+        if (info /= st_ok) return
         handle%rail = [rail_state_t(rail(1), rail(2), rail(3), rail(4), rail(5), rail(6)), &
                        rail_state_t(rail(7), rail(8), rail(9), rail(10), rail(11), rail(12))]
     end subroutine fsrail
@@ -200,14 +198,12 @@ contains
 
         type(wheelset_handle_t), pointer :: handle
         type(wheelset_demand_t) :: demand
-        type(status_t) :: status
         integer :: i
 
         n = 0
         wres = 0.0_c_double
-        call find_wheelset(number_of(iwork), handle, status)
-        info = status%code
-        if (is_error(status)) return
+        call find_wheelset(number_of(iwork), handle, info)
+        if (info /= st_ok) return
         if (any(idmnd(3:) < 0 .or. idmnd(3:) > 1)) then
             call set_status(handle%status, st_bad_argument, 'IDMND(3) and IDMND(4) must be 0 or ' &
                             // '1; INTEGER must be four bytes, see FSINTS')
@@ -319,11 +315,8 @@ contains
         integer, intent(out) :: i                                !! contact of its wheel
         integer(c_int), intent(out) :: info                      !! status
 
-        type(status_t) :: status
-
-        call find_wheelset(number_of(iwork), handle, status)
-        info = status%code
-        if (is_error(status)) return
+        call find_wheelset(number_of(iwork), handle, info)
+        if (info /= st_ok) return
         call find_contact(handle, k, side, i)
         info = handle%status%code
     end subroutine find_column
