@@ -25,19 +25,19 @@ module faststrip_numerics_cliffs
     implicit none
     private
 
-    public :: find_torn_points
+    public :: find_torn_points, too_much
 
     ! c of a side that foretell the next one: three of them may be torn themselves. With 5 two
     ! steps within five points go unseen; with 9 the curvature has changed too much.
     ! Tuned [points]. Origin: as said with it.
     integer, parameter :: window = 7
-    ! Fewer than these foretell nothing.
-    ! Tuned [points]. Origin: the fewest with a scatter of their own.
-    integer, parameter :: fewest = 4
-    ! How many median deviations are too many. In noise 10 is passed by one point in some
-    ! thousand, and what is lost there is little; smooth curves stay far below 3.
-    ! Tuned [median deviations]. Origin: as said with it.
-    real(wp), parameter :: scatter_factor = 10.0_wp
+    ! Fewer than most of them foretell nothing.
+    integer, parameter :: fewest = (window + 1)/2
+    !> How many times what neighbours foretell is too much: median deviations of second derivatives,
+    !> and of a spline's interval what a parabola rises. In noise 10 deviations are passed by one
+    !> point in some thousand, and what is lost there is little; smooth curves stay far below 3.
+    !> Tuned [1]. Origin: as said with it.
+    real(wp), parameter :: too_much = 10.0_wp
     ! A change of c by less than this is no step; sooner than that the rest is not even looked at.
     ! Tuned [1, of the unit of c]. Origin: chosen; saves time in smooth curves.
     real(wp), parameter :: least_change = 0.02_wp
@@ -56,9 +56,8 @@ module faststrip_numerics_cliffs
     ! The nearest three c of a smooth side differ by less than this from what it foretells.
     ! Tuned [1]. Origin: chosen; round.
     real(wp), parameter :: agreement = 0.25_wp
-    ! Scatter that comes again: so many of the c on each side stand out as far as half of it.
-    ! Tuned [points]. Origin: of a window of 7 one in three.
-    integer, parameter :: again = 2
+    ! Scatter that comes again: one in three of the c on each side stands out as far as half of it.
+    integer, parameter :: again = nint(window/3.0_wp)
     ! Its height over the chord of the points beside it, over their distance.
     ! Tuned [1]. Origin: chosen: slopes that change by less are a twentieth of those of a patch.
     real(wp), parameter :: scatter_height = 1.0e-3_wp
@@ -168,10 +167,10 @@ contains
         if (.not. right%is_known) right = left
         excess(k) = excess_over(c(k), left, right)
         change = abs(excess(k))
-        is_torn(k) = change > scatter_factor*max(left%scatter, right%scatter) &
+        is_torn(k) = change > too_much*max(left%scatter, right%scatter) &
                      .and. change > least_change*abs(c(k)) &
                      .and. change*chord_factor(n, x, k) &
-                     > max(scatter_factor*max(left%uneven, right%uneven), &
+                     > max(too_much*max(left%uneven, right%uneven), &
                            rounding_of(n, x, y, k))
         if (is_torn(k)) is_torn(k) = .not. comes_again(n, x, c, k, excess(k))
     end subroutine look_at
@@ -227,14 +226,14 @@ contains
             goes_on = .false.
             if (.not. before%is_known) cycle
             change = abs(c(k) - before%c)
-            if (change <= max(rough_factor*abs(before%c), scatter_factor*before%scatter)) cycle
+            if (change <= max(rough_factor*abs(before%c), too_much*before%scatter)) cycle
             if (change*chord_factor(n, x, k) &
-                <= max(scatter_factor*before%uneven, rounding_of(n, x, y, k))) cycle
+                <= max(too_much*before%uneven, rounding_of(n, x, y, k))) cycle
             if (comes_again(n, x, c, k, c(k) - before%c)) cycle
             after = foretold(n, x, c, is_torn, .false., k, step)
-            if (after%is_known .and. after%agrees .and. scatter_factor*after%scatter < change &
+            if (after%is_known .and. after%agrees .and. too_much*after%scatter < change &
                 .and. abs(excess_over(c(k), before, after)) &
-                <= max(scatter_factor*max(before%scatter, after%scatter), &
+                <= max(too_much*max(before%scatter, after%scatter), &
                        least_change*abs(c(k)))) cycle
             is_torn(k) = .true.
             goes_on = .true.

@@ -33,19 +33,13 @@ contains
     end function complete_elliptic_d
 
     !> int_0^{pi/2} (a cos^2 + b sin^2) / sqrt(cos^2 + m1 sin^2), a, b >= 0: Bulirsch's cel with
-    !> p = 1. Each step of the mean doubles the digits; the loop ends when the last step's
-    !> correction falls below one unit in the last place.
+    !> p = 1. Each step squares the relative difference of the two means: the loop ends, within some
+    !> twenty steps of the smallest m1, where the square is below rounding.
     pure elemental real(wp) function positive_integral(m1, a, b) result(value)
         real(wp), intent(in) :: m1, a, b
 
-        ! Tuned [steps]: Most steps of the mean. Origin: the mean doubles its digits in each: never
-        ! reached.
-        integer, parameter :: steps = 24
-        ! Tuned [1]: Difference of the two means that ends the steps. Origin: its square is below
-        ! rounding, and the next step squares it.
-        real(wp), parameter :: close_enough = 1.0e-8_wp
+        real(wp), parameter :: close_enough = 0.5_wp*sqrt(epsilon(1.0_wp))
         real(wp) :: mean, geometric, product, ai, bi, p, previous, g
-        integer :: step
 
         value = ieee_value(value, ieee_quiet_nan)
         if (.not. ieee_is_finite(m1)) return
@@ -56,7 +50,7 @@ contains
         ai = a
         bi = b
         p = 1.0_wp
-        do step = 1, steps
+        do
             previous = ai
             ai = ai + bi/p
             g = product/p

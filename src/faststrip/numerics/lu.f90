@@ -12,8 +12,9 @@ module faststrip_numerics_lu
 
     ! Tuned [columns]: Columns factored together. Origin: chosen for the time.
     integer, parameter :: panel = 16 ! a multiple of four
-    ! Tuned [1]: Pivots outside are singular. Origin: safeguard: products of pivots cannot overflow.
-    real(wp), parameter :: least_pivot = 1.0e-150_wp, largest_pivot = 1.0e150_wp
+    ! Pivots outside are singular: so products of two, or of one and the reciprocal of another, stay
+    ! within the numbers.
+    real(wp), parameter :: least_pivot = sqrt(tiny(1.0_wp)), largest_pivot = 1.0_wp/least_pivot
 
 contains
 
@@ -23,7 +24,7 @@ contains
         real(wp), intent(inout), contiguous :: a(:, :) !! the matrix, in the first n rows and
                                            !! columns; then U, and below it L, whose diagonal is 1
         integer, intent(inout) :: pivot(:) !! row exchanged with row k in step k, (n)
-        logical, intent(out) :: singular   !! a pivot is below 1e-150 or above 1e150: not factored
+        logical, intent(out) :: singular   !! a pivot is below 1e-154 or above 1e154: not factored
 
         integer :: first, last, j, k, i
         real(wp) :: largest, other, factor

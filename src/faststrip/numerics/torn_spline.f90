@@ -10,19 +10,12 @@
 module faststrip_numerics_torn_spline
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_numerics_cliffs, only: find_torn_points
+    use faststrip_numerics_cliffs, only: find_torn_points, too_much
     use faststrip_numerics_spline, only: spline_setup, spline_not_a_knot, spline_monotone
     implicit none
     private
 
     public :: torn_spline_setup, torn_spline_work_size, tame_interval
-
-    ! By how much an interval may leave the range of its points, over what a parabola with the
-    ! second derivatives around it would at most (an eighth). A spline through noise has less than
-    ! 3, through a jump of the curvature less than 2; the waves of an unseen step have more than
-    ! 100 three points away.
-    ! Tuned [1]. Origin: as said with it.
-    real(wp), parameter :: tolerated_waves = 10.0_wp
 
 contains
 
@@ -131,6 +124,10 @@ contains
 
     !> Make interval i monotone if it leaves the range of its two points by more than their
     !> neighbours' second derivatives allow; that is where a tear was not found.
+    !>
+    !> Too much is ten times what a parabola with these second derivatives would leave it by. A
+    !> spline through noise has less than 3, through a jump of the curvature less than 2; the waves
+    !> of an unseen step have more than 100 three points away.
     pure subroutine tame_interval(i, x, y, c, lowest, highest, slope_from, slope_to, is_tamed)
         integer, intent(in) :: i            !! number of the interval
         real(wp), intent(in) :: x(:), y(:)  !! knots and values
@@ -147,7 +144,7 @@ contains
         right = max(abs(c(i + 1)), abs(c(min(i + 2, size(c)))))
         ! Given: what a parabola leaves its chord by
         is_tamed = max(min(y(i), y(i + 1)) - lowest, highest - max(y(i), y(i + 1))) &
-                   > tolerated_waves/8.0_wp*(x(i + 1) - x(i))**2*min(left, right)
+                   > too_much/8.0_wp*(x(i + 1) - x(i))**2*min(left, right)
         if (is_tamed) call make_monotone(x(i:i + 1), y(i:i + 1), slope_from, slope_to)
     end subroutine tame_interval
 end module faststrip_numerics_torn_spline
