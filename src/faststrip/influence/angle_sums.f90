@@ -9,11 +9,12 @@ module faststrip_influence_angle_sums
                                                near_last, one_cosh, one_sinh, d_cosh, d_sinh
     use faststrip_influence_closed_coefficients, only: a => atanh_series, atanh_last
     use faststrip_influence_four_lanes, only: far_rule_lanes, near_rule_lanes
+    use faststrip_influence_offcentre_rules, only: for_gradient
     use faststrip_influence_thin_kernel, only: expand_kernel, last_power
     implicit none
     private
 
-    public :: angle_moments, least_near
+    public :: angle_moments
 
     ! The largest far rule that is cheaper than a near one.
     ! Tuned [rule's number]. Origin: chosen for the time.
@@ -28,12 +29,9 @@ module faststrip_influence_angle_sums
     real(wp), parameter :: thin_last(wide - 1, fine:coarse) = reshape( &
         [-1.0_wp, -1.0_wp, -1.0_wp, 0.26_wp, 0.045_wp, 0.16_wp, 0.28_wp, -1.0_wp], [wide - 1, 2])
 
-    ! Largest X and distance of an edge, in half-lengths: beyond, scalar procedures lose less.
-    ! Tuned [half-lengths]. Origin: accuracy: beyond, differences of large numbers.
-    real(wp), parameter :: largest_sigma = 1.0e3_wp
-    !> Least distance of a field point from the nearer edge, in half-lengths: below, no rule fits.
-    !> Tuned [half-lengths]. Origin: the last rule's smallest interval.
-    real(wp), parameter :: least_near = 1.0e-5_wp
+    ! Largest X and distance of an edge, in half-lengths: beyond, differences lose more than
+    ! derivatives may, and scalar procedures less.
+    real(wp), parameter :: largest_sigma = for_gradient%loss
 
 contains
 
@@ -54,7 +52,7 @@ contains
 
         found = .false.
         m = 0.0_wp
-        if (.not. (cl >= least_near .and. cr > cl .and. cr < largest_sigma &
+        if (.not. (cl > 0.0_wp .and. cr > cl .and. cr < largest_sigma &
                    .and. x < largest_sigma)) return
         narrowness = (cr - cl)/(max(cr, x - 1.0_wp) + max(cl, x - 1.0_wp))
         if (narrowness > atanh_last) return

@@ -51,8 +51,10 @@ module faststrip_influence_closed
     real(wp), parameter :: log_4 = 1.386294361119890618834464242916353136_wp
 
     integer :: k_
-    !> The largest n of the tables of logarithms: beyond, few terms in powers of 1/(4n^2) serve.
-    !> Tuned [1]. Origin: far more than the strips of a patch; beyond, five powers are exact.
+    !> The largest n of the tables of logarithms, as many strips as a patch seldom has: beyond, few
+    !> terms in powers of 1/(4n^2) serve. Columns on the centre line are taken in parts as long.
+    !> Tuned [strips]. Origin: chosen: from 16 on five powers are exact; columns of 61 to 201 points
+    !> in parts take 1.01 to 1.03 times as long at half, 0.98 to 1.0 at double.
     integer, parameter :: table_end = 64
     ! 2n atanh(1/(2n)), and the coefficients of its powers.
     real(wp), parameter :: distance_table(table_end) = &
@@ -96,9 +98,8 @@ contains
     elemental real(wp) function influence_primitive_slope(c) result(slope)
         real(wp), intent(in) :: c !! edge of the strip over its half-length, any size and sign
 
-        ! Tuned [half-lengths]: Edges nearer to the field point than this need the first term only.
-        ! Origin: its square is below rounding.
-        real(wp), parameter :: tiny_c = 1.0e-9_wp
+        ! Edges nearer to the field point than this need the first term only.
+        real(wp), parameter :: tiny_c = sqrt(epsilon(1.0_wp))
         real(wp) :: size, root
 
         if (.not. ieee_is_finite(c)) then
@@ -293,12 +294,10 @@ contains
     elemental real(wp) function far_difference(cl, cr) result(value)
         real(wp), intent(in) :: cl, cr
 
-        ! Tuned [half-lengths]: Edges beyond are as far as this. Origin: safeguard: no product can
-        ! overflow.
-        real(wp), parameter :: c_huge = 1.0e300_wp
         real(wp) :: wl, wr, p, q(2)
 
-        if (cr > c_huge) then
+        ! Beyond, cr/cl could overflow.
+        if (cr > c_large*huge(cr)) then
             value = 0.5_wp*pi*(log(cr) - log(cl))
             return
         end if

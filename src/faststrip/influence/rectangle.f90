@@ -17,6 +17,7 @@
 !> to rounding. Sides within 1e-100 and 1e100 mm and finite distances raise no exception.
 module faststrip_influence_rectangle
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: smallest_size
     use faststrip_base_material, only: material_t, combined_shear_modulus, combined_poisson_ratio
     implicit none
     private
@@ -35,9 +36,6 @@ module faststrip_influence_rectangle
         real(wp) :: zy = 0.0_wp !! u_z by p_y; u_y by the pressure is its opposite
     end type rectangle_influence_t
 
-    ! Distance, in half-sides, from which four Gauss points serve: (2 far)^-8 = 4e-16 at most.
-    ! Tuned [half-sides]. Origin: as said with it.
-    real(wp), parameter :: far = 45.0_wp
     ! Given: Gauss-Legendre with four points.
     real(wp), parameter :: node(4) = [-0.861136311594052575223946488892809505_wp, &
                                       -0.339981043584856264802665759103244687_wp, &
@@ -48,9 +46,8 @@ module faststrip_influence_rectangle
                                         0.652145154862546142626936050778000593_wp, &
                                         0.652145154862546142626936050778000593_wp, &
                                         0.347854845137453857373063949221999407_wp]
-    ! A field point this close to an edge, over the edge's length, is on it.
-    ! Tuned [1]. Origin: t ln t is below rounding.
-    real(wp), parameter :: on_the_edge = 1.0e-30_wp
+    ! Distance, in half-sides, from which n Gauss points serve: their error is (2 far)^(-2 n).
+    integer, parameter :: far = floor(0.5_wp*epsilon(1.0_wp)**(-0.5_wp/size(node)))
     ! Tuned [1]: ratio of distances up to which a difference of two terms loses no digit. Origin:
     ! chosen; round.
     real(wp), parameter :: cancelling = 0.1_wp
@@ -182,7 +179,8 @@ contains
 
         edge = 0.0_wp
         length = s2 - s1
-        if (abs(t) <= on_the_edge*length) return
+        ! On the edge t ln t is below rounding.
+        if (abs(t) <= smallest_size*length) return
         if (min(abs(s1), abs(s2)) > cancelling*length .and. s1*s2 > 0.0_wp) then
             edge = 2.0_wp*t*atanh(length/(hypot(s1, t) + hypot(s2, t)))
         else
@@ -195,7 +193,7 @@ contains
         real(wp), intent(in) :: s, ds, t, r1, r2
 
         log_edge = 0.0_wp
-        if (abs(t) <= on_the_edge*ds) return
+        if (abs(t) <= smallest_size*ds) return
         if (min(r1, r2) < cancelling*max(r1, r2)) then
             log_edge = t*log(r2/r1)
         else
@@ -208,7 +206,7 @@ contains
         real(wp), intent(in) :: s1, s2, t
 
         angle_edge = 0.0_wp
-        if (abs(t) <= on_the_edge*(s2 - s1)) return
+        if (abs(t) <= smallest_size*(s2 - s1)) return
         angle_edge = abs(t)*atan2(abs(t)*(s2 - s1), t*t + s1*s2)
     end function angle_edge
 end module faststrip_influence_rectangle

@@ -12,9 +12,9 @@ module faststrip_influence_offcentre_folded
     ! The folded double-exponential rule on [0,1]: abscissae y and weights.
     ! Tuned [nodes]: Number of nodes. Origin: chosen for the error at the least distances.
     integer, parameter :: n_fold = 160
-    ! Tuned [1]: Spacing of the nodes before the transformation. Origin: with n_fold, the last
-    ! weight is below rounding.
-    real(wp), parameter :: h_fold = 0.0288_wp
+    ! Spacing of the nodes before the transformation: the last abscissa is below the rounding of
+    ! numbers as small as rounding's root.
+    real(wp), parameter :: h_fold = asinh(-0.5_wp*log(epsilon(1.0_wp)**3))/(n_fold - 1)
     real(wp), parameter :: t_fold(n_fold) = [(h_fold*(i_ - 1), i_=1, n_fold)]
     real(wp), parameter :: y_fold(n_fold) = 2.0_wp/(1.0_wp + exp(sinh(t_fold) + t_fold))
     real(wp), parameter :: w_end(n_fold) = [0.5_wp, (1.0_wp, i_=2, n_fold)]

@@ -30,7 +30,7 @@
 module faststrip_influence_offcentre
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: nothing
+    use faststrip_base_limits, only: nothing, smallest_size, largest_size, beyond_all
     use faststrip_influence_closed, only: strip_influence_edges, strip_influence_center_gradient
     use faststrip_influence_closed_coefficients, only: atanh_last
     use faststrip_influence_angle_rules, only: cosine
@@ -51,19 +51,8 @@ module faststrip_influence_offcentre
     ! Given: ln 2.
     real(wp), parameter :: log_2 = 0.693147180559945309417232121458176568_wp
 
-    ! From this many half-lengths away a strip is a point; an edge this many times farther still
-    ! sees it, and all within the former, as one.
-    ! Tuned [half-lengths]. Origin: safeguard, far beyond any digit.
-    real(wp), parameter :: point_ratio = 1.0e30_wp
-    ! On the centre line the closed form serves while edges are at most this many widths away.
-    ! Tuned [widths]. Origin: accuracy of the off-centre rules beside the closed form.
-    real(wp), parameter :: center_ratio = 1.0e3_wp
     ! A strip within this distance of the field point, in half-lengths, has no influence.
-    ! Tuned [half-lengths]. Origin: safeguard against underflow.
-    real(wp), parameter :: no_width = 1.0e-250_wp
-    ! Below this, an edge is on the field point.
-    ! Tuned [half-lengths]. Origin: c ln c is below rounding.
-    real(wp), parameter :: on_the_edge = 1.0e-20_wp
+    real(wp), parameter :: no_width = 1.0_wp/beyond_all
 
 contains
 
@@ -157,13 +146,14 @@ contains
         type(accuracy_t), intent(in) :: accuracy
         real(wp), intent(out) :: m(3)
 
-        ! Tuned [half-lengths]: Distances in half-lengths beyond are as far as this. Origin:
-        ! safeguard against overflow.
-        real(wp), parameter :: largest_scaled = 1.0e240_wp
+        ! Longer strips are as long as this: `far` cannot overflow.
+        real(wp), parameter :: longest = huge(1.0_wp)/largest_size**3
         real(wp) :: near, far
 
-        near = point_ratio*min(xd, largest_scaled)
-        far = point_ratio*near
+        ! From so far away a strip is a point; an edge as many times farther still sees it, and all
+        ! within the former, as one.
+        near = largest_size*min(xd, longest)
+        far = largest_size*near
         if (x > near .or. el > near) then
             call point_moments(x, xd, el, er, m)
         else if (er > far) then
@@ -217,7 +207,7 @@ contains
 
         m = 0.0_wp
         if (.not. cr > max(cl, no_width)) return
-        if (.not. x > 0.0_wp .and. cl <= center_ratio*(cr - cl)) then
+        if (.not. x > 0.0_wp .and. cl <= accuracy%loss*(cr - cl)) then
             call strip_influence_center_gradient(cl, cr, m(1), m(3))
             return
         end if
@@ -231,7 +221,7 @@ contains
             end if
         else if (cr <= accuracy%thin*(1.0_wp - x) .and. cr <= accuracy%loss*(cr - cl)) then
             call series_moments(x, cl, cr, accuracy%tail, m)
-        else if (x > 1.0_wp .or. cl > on_the_edge) then
+        else if (x > 1.0_wp .or. cl > smallest_size) then
             call near_moments(x, cl, cr, max(cl, x - 1.0_wp), accuracy, m)
         else if (cr >= accuracy%split) then
             sigma = 0.5_wp*(sqrt((x - 1.0_wp)**2 + cr*cr) + sqrt((x + 1.0_wp)**2 + cr*cr))

@@ -1,6 +1,7 @@
 !> Off the centre line, thin strips well inside the ends: the series in powers of c.
 module faststrip_influence_offcentre_series
     use faststrip_base_kinds, only: wp
+    use faststrip_influence_offcentre_rules, only: for_value, for_gradient
     implicit none
     private
 
@@ -10,9 +11,11 @@ module faststrip_influence_offcentre_series
 
     ! Given: ln 2.
     real(wp), parameter :: log_2 = 0.693147180559945309417232121458176568_wp
+    ! Most terms of the series: those that both accuracies need at their largest ratio.
+    integer, parameter :: max_terms = &
+        2 + ceiling(max(log(for_value%tail)/(2.0_wp*log(for_value%thin)), &
+                        log(for_gradient%tail)/(2.0_wp*log(for_gradient%thin))))
     ! The series in c: 1/(2k + 1), 1/k, ratio of successive factors.
-    ! Tuned [terms]: Most terms of the series. Origin: enough at the largest ratio of the series.
-    integer, parameter :: max_terms = 12
     real(wp), parameter :: inverse_odd(0:max_terms) = [(1.0_wp/(2*k_ + 1), k_=0, max_terms)]
     real(wp), parameter :: reciprocal(max_terms) = [(1.0_wp/k_, k_=1, max_terms)]
     real(wp), parameter :: series_step(0:max_terms) = [(-0.25_wp/(k_ + 1)**2, k_=0, max_terms)]

@@ -3,7 +3,7 @@ module faststrip_influence_offcentre_slope
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, &
                                              ieee_positive_inf
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: beyond_all
+    use faststrip_base_limits, only: beyond_all, smallest_size
     use faststrip_influence_angle_rules, only: cosine, sine
     use faststrip_influence_offcentre_rules, only: for_value, interval, least_far_rule, &
                                                    least_near_rule, scalar_size, scalar_start
@@ -14,12 +14,8 @@ module faststrip_influence_offcentre_slope
 
     ! Given: ln 2.
     real(wp), parameter :: log_2 = 0.693147180559945309417232121458176568_wp
-    ! The slope in an edge: its series may be cut after one term below this c/(1 - |X|), and off the
-    ! strip the edge is on the field point below this c.
-    ! Tuned [1]. Origin: its square is below rounding.
-    real(wp), parameter :: small_ratio = 1.0e-8_wp
-    ! Tuned [half-lengths]. Origin: c ln c is below rounding.
-    real(wp), parameter :: small_edge = 1.0e-27_wp ! on the field point
+    ! The slope's series may be cut after one term below this c/(1 - |X|).
+    real(wp), parameter :: small_ratio = sqrt(epsilon(1.0_wp))
 
 contains
 
@@ -35,9 +31,6 @@ contains
         real(wp), intent(in) :: x !! X, field point along the strip over the half-length
         real(wp), intent(in) :: c !! edge less the field point's y over the half-length
 
-        ! Tuned [1]: smaller over larger distance that counts for nothing. Origin: its square is
-        ! below rounding.
-        real(wp), parameter :: no_ratio = 1.0e-8_wp
         real(wp) :: xs, cs, sigma, rest
 
         if (.not. (ieee_is_finite(x) .and. ieee_is_finite(c))) then
@@ -48,9 +41,7 @@ contains
         cs = abs(c)
         rest = abs(1.0_wp - xs)
         if (max(xs, cs) > beyond_all) then
-            slope = 0.5_wp*pi/max(xs, cs)
-            if (min(xs, cs) > no_ratio*max(xs, cs)) &
-                slope = slope/sqrt(1.0_wp + (min(xs, cs)/max(xs, cs))**2)
+            slope = 0.5_wp*pi/max(xs, cs)/sqrt(1.0_wp + (min(xs, cs)/max(xs, cs))**2)
             return
         end if
         sigma = 0.5_wp*(sqrt((xs - 1.0_wp)**2 + cs*cs) + sqrt((xs + 1.0_wp)**2 + cs*cs))
@@ -58,7 +49,8 @@ contains
             slope = far_slope(xs, cs, least_far_rule(sigma, for_value))
         else if (xs < 1.0_wp .and. cs <= small_ratio*rest) then
             slope = thin_slope(xs, cs)
-        else if (cs <= small_edge) then
+        else if (cs <= smallest_size) then
+            ! The edge is on the field point.
             slope = pi*(xs - sqrt((xs - 1.0_wp)*(xs + 1.0_wp)))
         else
             slope = near_slope(xs, cs)
