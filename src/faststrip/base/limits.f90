@@ -6,6 +6,7 @@ module faststrip_base_limits
 
     public :: most_steps, most_halvings, smallest_size, largest_size, nothing, beyond_all
     public :: too_large, largest_ratio, rounding, half_digits
+    public :: most_points, largest_place, no_length, equal_within
 
     !> Most steps of a search that goes on until it is there.
     !> Tuned [steps]. Origin: safeguard: Newton's and secant steps take three to ten, a bracket that
@@ -35,4 +36,16 @@ module faststrip_base_limits
     !> Places this near to each other, over an element's side, are one, and pressures of this part
     !> of the largest none: half of the digits.
     real(wp), parameter :: half_digits = sqrt(epsilon(1.0_wp))
+    !> Most points that are made of one curve, or samples of one gap.
+    !> Tuned [points]. Origin: safeguard: memory; 10 m in steps of 0.01 mm.
+    integer, parameter :: most_points = 1000000
+    !> Coordinates and displacements beyond are refused: they are not in mm.
+    !> Tuned [mm]. Origin: safeguard: 10 m.
+    real(wp), parameter :: largest_place = 1.0e4_wp
+    !> Lengths that differ by less are the same.
+    !> Tuned [mm]. Origin: a hundredth of an atom, ten thousand roundings of a radius.
+    real(wp), parameter :: no_length = 1.0e-9_wp
+    !> Coordinates, and numbers over their size, that differ by less agree as far as they can.
+    !> Tuned [mm, 1]. Origin: some roundings of a place in the track, and of sums over some hundred.
+    real(wp), parameter :: equal_within = 1.0e-12_wp
 end module faststrip_base_limits

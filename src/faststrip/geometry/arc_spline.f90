@@ -11,13 +11,14 @@ module faststrip_geometry_arc_spline
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      count_text, st_out_of_range, st_too_few_points, &
                                      st_not_increasing, st_not_finite, st_bad_argument
+    use faststrip_geometry_touchable, only: upright
     use faststrip_numerics_spline, only: spline_setup, spline_work_size, spline_not_a_knot, &
                                          cubic_value, interval_of
     implicit none
     private
 
     public :: arc_spline_t, make_arc_spline, arc_spline_at, find_kinks, chord_lengths, &
-              standard_kink_angle
+              standard_kink_angle, fewest_points
 
     !> Turn of a profile within one point from which it is a kink, rad.
     !> Tuned [rad]: 20 degrees. Origin: points 2 mm apart on the gauge corner R13 turn by 9 degrees.
@@ -27,15 +28,15 @@ module faststrip_geometry_arc_spline
     ! Tuned [mm]. Origin: noise of 10 um turns them by less than 2 degrees.
     real(wp), parameter :: stretch = 0.5_wp
 
-    ! Fewest points of an arc spline.
-    ! Given: as few as a cubic has coefficients, and one more.
-    integer, parameter :: fewest = 5
+    !> Fewest points of a profile.
+    !> Given: as few as a cubic has coefficients, and one more.
+    integer, parameter :: fewest_points = 5
 
     ! Bounds of dy/ds over the mean of its interval: y stays increasing.
     ! Given: Fritsch and Carlson (1980): up to three times is monotone.
     real(wp), parameter :: steepest = 3.0_wp
-    ! Tuned [1]: The lower of them. Origin: safeguard: slopes stay finite.
-    real(wp), parameter :: flattest = 1.0e-3_wp
+    ! The lower of them: nowhere within an interval of even slope is the curve upright.
+    real(wp), parameter :: flattest = 1.0_wp/upright
 
     !> The points and the derivatives of both coordinates at both ends of each interval.
     type :: arc_spline_t
@@ -114,9 +115,9 @@ contains
         if (.not. valid) then
             call set_status(status, st_bad_argument, 'the angle of a kink must be above 0, got ' &
                             //number_text(kink_angle))
-        else if (size(y) < fewest .or. size(z) /= size(y)) then
+        else if (size(y) < fewest_points .or. size(z) /= size(y)) then
             call set_status(status, st_too_few_points, 'a profile must have at least ' &
-                            //trim(count_text(fewest))//' points that can be touched, got ' &
+                            //trim(count_text(fewest_points))//' points that can be touched, got ' &
                             //count_text(size(y)))
         else if (.not. all(ieee_is_finite(y)) .or. .not. all(ieee_is_finite(z))) then
             call set_status(status, st_not_finite, 'points of a profile must be finite numbers')

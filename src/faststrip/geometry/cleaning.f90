@@ -2,6 +2,7 @@
 module faststrip_geometry_cleaning
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: most_points
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_too_few_points
     use faststrip_numerics_spline, only: spline_setup, spline_value, spline_work_size, &
@@ -10,11 +11,7 @@ module faststrip_geometry_cleaning
     implicit none
     private
 
-    public :: keep_range, drop_double, drop_folds, turn_points, resample, most_points
-
-    !> Most points that resampling makes.
-    !> Tuned [points]. Origin: capacity.
-    integer, parameter :: most_points = 1000000
+    public :: keep_range, drop_double, drop_folds, turn_points, resample
 
     ! A point in which a curve turns by more is that of a fold.
     ! Tuned [rad]. Origin: 150 degrees, as CONTACT has it for the zig-zag of two stitched parts.

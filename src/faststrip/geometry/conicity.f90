@@ -25,7 +25,7 @@
 module faststrip_geometry_conicity
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: most_steps
+    use faststrip_base_limits, only: most_steps, equal_within
     use faststrip_base_status, only: status_t, clear_status, set_status, is_error, number_text, &
                                      count_text, st_bad_argument, st_not_finite, &
                                      st_not_increasing, st_no_wave, st_out_of_range, &
@@ -36,9 +36,6 @@ module faststrip_geometry_conicity
     public :: conicity_t, find_conicity, find_equilibrium, klingel_conicity, &
               regression_conicity, largest_amplitude
 
-    ! Amplitudes may pass the end of the table by this part, levels of S differ by it.
-    ! Tuned [1]. Origin: chosen; rounding of sums over some hundred points.
-    real(wp), parameter :: rounding = 1.0e-12_wp
     ! Nonlinearity is half of what the conicity rises from an amplitude 1 mm less to one 1 mm more.
     ! Given: Polach (2010): (tan gamma_e(4 mm) - tan gamma_e(2 mm))/2 at 3 mm.
     real(wp), parameter :: half_span = 1.0_wp
@@ -130,9 +127,9 @@ contains
                     place = 0.5_wp*(y(last + 1) + y(i - 1))
                 end if
                 gain = abs(y_equilibrium) - abs(place)
-                is_nearer = gain > rounding*(y(size(y)) - y(1))
+                is_nearer = gain > equal_within*(y(size(y)) - y(1))
                 if (is_falling .and. delta_r(i) > 0.0_wp) &
-                    is_nearer = gain >= -rounding*(y(size(y)) - y(1))
+                    is_nearer = gain >= -equal_within*(y(size(y)) - y(1))
                 if (.not. is_found .or. is_nearer) then
                     y_equilibrium = place
                     is_falling = delta_r(i) < 0.0_wp
@@ -300,7 +297,7 @@ contains
             largest = min(ends(2) - y_equilibrium, y_equilibrium - ends(1))
             return
         end if
-        if (abs(levels(2) - levels(1)) <= rounding*maxval(levels)) return
+        if (abs(levels(2) - levels(1)) <= equal_within*maxval(levels)) return
         ! On the side that climbs higher the wheelset turns before the end.
         far = maxloc(levels, 1)
         low = y_equilibrium
@@ -327,7 +324,7 @@ contains
         if (.not. is_positive) then
             call set_status(status, st_bad_argument, 'the amplitude must be above 0, got ' &
                             // trim(number_text(amplitude)) // ' mm')
-        else if (amplitude > largest*(1.0_wp + rounding)) then
+        else if (amplitude > largest*(1.0_wp + equal_within)) then
             call set_status(status, st_out_of_range, 'the table ends before the amplitude, got ' &
                             // trim(number_text(amplitude)) // ', at most ' &
                             // trim(number_text(largest)) // ' mm')

@@ -21,7 +21,7 @@ module faststrip_geometry_gauge_fit
     real(wp), parameter :: least_gauge(2) = [1410.0_wp, 1505.0_wp], &
                            most_gauge(2) = [1475.0_wp, 1523.0_wp]
     ! Tuned [mm]: The same of the distance of the rails' origins, between gauge face and crown.
-    ! Origin: chosen.
+    ! Origin: chosen: 20 to 92 mm more than these gauges, a head's width and some.
     real(wp), parameter :: least_distance(2) = [1430.0_wp, 1575.0_wp], &
                            most_distance(2) = [1555.0_wp, 1615.0_wp]
     ! Tuned [mm]: How much farther apart than the gauge faces the nominal rolling circles may be:
@@ -30,7 +30,8 @@ module faststrip_geometry_gauge_fit
     real(wp), parameter :: most_beyond_gauge = 110.0_wp
     ! Given: EN 15313: where a flange's thickness is measured, mm.
     real(wp), parameter :: flank_depth = 10.0_wp
-    ! Tuned [mm]: Steps along the flange. Origin: chosen; bisections follow.
+    ! Tuned [mm]: Steps along the flange. Origin: chosen: finer than any flange; with
+    ! the bisections that follow the place is that of any finer step.
     real(wp), parameter :: flank_step = 0.25_wp
 
 contains

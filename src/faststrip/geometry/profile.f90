@@ -11,6 +11,7 @@
 module faststrip_geometry_profile
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_place
     use faststrip_geometry_rail_uic60, only: rail_head_t, make_rail_head, rail_head_at, &
                                              uic60_transition, en60e1_transition, &
                                              en54e1_transition, half_width_54
@@ -61,10 +62,6 @@ module faststrip_geometry_profile
     ! Of every second point a smooth curve turns by twice as much.
     ! Given: two turns in one.
     real(wp), parameter :: turn_of_two = 2.0_wp
-
-    ! Points beyond this are not in mm.
-    ! Tuned [mm]. Origin: safeguard.
-    real(wp), parameter :: largest_coordinate = 1.0e4_wp
 
     !> One profile, ready to be evaluated between y_first and y_last.
     type :: profile_t
@@ -159,7 +156,7 @@ contains
         ! The points themselves are checked before they are turned.
         call make_sampled_profile(y, z, profile%sampled, status)
         if (is_error(status)) return
-        if (max(maxval(abs(y)), maxval(abs(z))) > largest_coordinate) then
+        if (max(maxval(abs(y)), maxval(abs(z))) > largest_place) then
             call set_status(status, st_bad_argument, &
                             'points of the profile must be within 10 m, got ' // &
                             trim(number_text(max(maxval(abs(y)), maxval(abs(z))))) // ' mm')
@@ -232,7 +229,7 @@ contains
             call set_status(status, st_too_few_points, 'a profile must have as many y as z')
         else if (.not. all(ieee_is_finite(y)) .or. .not. all(ieee_is_finite(z))) then
             call set_status(status, st_not_finite, 'points of a profile must be finite numbers')
-        else if (max(maxval(abs(y)), maxval(abs(z))) > largest_coordinate) then
+        else if (max(maxval(abs(y)), maxval(abs(z))) > largest_place) then
             call set_status(status, st_bad_argument, &
                             'points of the profile must be within 10 m, got ' // &
                             trim(number_text(max(maxval(abs(y)), maxval(abs(z))))) // ' mm')

@@ -7,6 +7,7 @@
 module faststrip_geometry_rail_uic60
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_plausible, only: quantities, of_inclination
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_argument, st_out_of_range
     implicit none
@@ -46,11 +47,8 @@ module faststrip_geometry_rail_uic60
     ! Tuned [mm]. Origin: safeguard: slopes stay finite.
     real(wp), parameter :: vertical_margin = 1.0e-6_wp
 
-    ! Tuned [rad]: Largest cant taken. Origin: chosen.
-    real(wp), parameter :: largest_cant = 0.1_wp
-    ! Tuned [mm]: places of the transition that are taken. Origin: chosen: half and double of the
-    ! standards' are.
-    real(wp), parameter :: least_transition = 1.0_wp, largest_transition = 20.0_wp
+    ! Larger cants are refused: they are outside of practice.
+    real(wp), parameter :: largest_cant = quantities(of_inclination)%most
 
     !> A rail head: its own frame has the origin at the crown, y to the field side, z down. The
     !> canted frame is turned by the cant and has its origin at the highest point.
@@ -81,20 +79,24 @@ contains
     !> From a cant of 1:20 on the gauge face is vertical or undercut and no longer a function of
     !> y: the head then ends there, on R13.
     pure subroutine make_rail_head(transition, cant, head, status, half_width)
-        real(wp), intent(in) :: transition      !! y1, between 1 and 20, mm
+        real(wp), intent(in) :: transition      !! y1, above 0 and where R80 has a length, mm
         real(wp), intent(in) :: cant            !! the inclination, e.g. 1/40; within +-0.1
         type(rail_head_t), intent(out) :: head  !! the head
         type(status_t), intent(out) :: status   !! `st_bad_argument`
         real(wp), intent(in), optional :: half_width !! where the flank begins, mm; 60E1's
+        real(wp) :: largest
         logical :: valid
 
         call clear_status(status)
+        if (present(half_width)) head%half_width = half_width
+        ! There R300 would meet R13.
+        largest = corner_y(head)/(1.0_wp - radius(3)/radius(1))
         valid = ieee_is_finite(transition)
-        if (valid) valid = transition >= least_transition .and. transition <= largest_transition
+        if (valid) valid = transition > 0.0_wp .and. transition < largest
         if (.not. valid) then
             call set_status(status, st_bad_argument, &
-                            'transition R300/R80 must be 1 to 20 mm, got ' &
-                            // number_text(transition))
+                            'transition R300/R80 must be above 0 and below ' // &
+                            trim(number_text(largest)) // ' mm, got ' // number_text(transition))
             return
         end if
         valid = ieee_is_finite(cant)
@@ -106,7 +108,6 @@ contains
         end if
 
         head%cant = cant
-        if (present(half_width)) head%half_width = half_width
         call join_arcs(transition, head)
         call turn_head(head)
     end subroutine make_rail_head
@@ -116,7 +117,7 @@ contains
         real(wp), intent(in) :: transition
         type(rail_head_t), intent(inout) :: head
 
-        real(wp) :: angle_1, angle_2, angle_flank
+        real(wp) :: angle_1, angle_2
 
         head%y1 = transition
         angle_1 = asin(transition/radius(1))
@@ -125,14 +126,20 @@ contains
         head%centre_z(1) = radius(1)
         head%centre_y(2) = head%y1 - radius(2)*sin(angle_1)
         head%centre_z(2) = head%z1 + radius(2)*cos(angle_1)
-        angle_flank = atan(flank_slope)
-        head%centre_y(3) = head%half_width - radius(3)*sin(angle_flank)
+        head%centre_y(3) = corner_y(head)
         angle_2 = asin((head%centre_y(3) - head%centre_y(2))/(radius(2) - radius(3)))
         head%y2 = head%centre_y(2) + radius(2)*sin(angle_2)
         head%z2 = head%centre_z(2) - radius(2)*cos(angle_2)
         head%centre_z(3) = head%z2 + radius(3)*cos(angle_2)
-        head%z_flank = head%centre_z(3) - radius(3)*cos(angle_flank)
+        head%z_flank = head%centre_z(3) - radius(3)*cos(atan(flank_slope))
     end subroutine join_arcs
+
+    !> Centre of R13 on the field side, own frame, mm.
+    pure real(wp) function corner_y(head)
+        type(rail_head_t), intent(in) :: head
+
+        corner_y = head%half_width - radius(3)*sin(atan(flank_slope))
+    end function corner_y
 
     !> The chain in the canted frame.
     pure subroutine turn_head(head)

@@ -8,7 +8,7 @@ module faststrip_geometry_rigid_contact
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_halvings
+    use faststrip_base_limits, only: most_halvings, largest_place
     use faststrip_geometry_gauge_fit, only: check_fit, check_tape_circles
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
@@ -65,8 +65,6 @@ module faststrip_geometry_rigid_contact
     !> Spacing of the scan for the smallest distance, mm.
     !> Tuned [mm]. Origin: well below the curvature of flange and rail corner.
     real(wp), parameter :: scan_step = 0.02_wp
-    ! Tuned [mm]: shifts beyond are refused. Origin: safeguard.
-    real(wp), parameter :: largest_shift = 1.0e4_wp
     !> Lengths and coordinates beyond are refused, mm.
     !> Tuned [mm]. Origin: safeguard.
     real(wp), parameter :: largest_length = 1.0e6_wp
@@ -225,7 +223,7 @@ contains
         if (.not. ieee_is_finite(shift)) then
             call set_status(status, st_bad_argument, 'the lateral shift must be a finite ' // &
                             'number, got ' // number_text(shift))
-        else if (abs(shift) > largest_shift) then
+        else if (abs(shift) > largest_place) then
             call set_status(status, st_bad_argument, &
                             'the lateral shift must be within 10 m, got ' // &
                             trim(number_text(shift)) // ' mm')

@@ -2,6 +2,7 @@
 module faststrip_geometry_sampled
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_geometry_arc_spline, only: fewest_points
     use faststrip_numerics_spline, only: spline_setup, spline_value, spline_work_size, &
                                          spline_not_a_knot
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
@@ -10,10 +11,6 @@ module faststrip_geometry_sampled
     private
 
     public :: sampled_profile_t, make_sampled_profile, sampled_profile_at
-
-    !> Fewest points that describe a profile.
-    !> Tuned [points]. Origin: chosen; as few as splines take.
-    integer, parameter :: min_profile_points = 5
 
     !> Points and the slopes of the curve through them.
     type :: sampled_profile_t
@@ -36,7 +33,7 @@ contains
                                                          !! `st_linear_algebra`
         real(wp), allocatable :: work(:)
 
-        if (size(y) < min_profile_points) then
+        if (size(y) < fewest_points) then
             call set_status(status, st_too_few_points, 'a profile must have at least 5 ' // &
                             'points, got ' // count_text(size(y)))
             return

@@ -23,10 +23,10 @@ module faststrip_geometry_sheared_gap
     ! paraboloid.
     real(wp), parameter :: most_shear = 0.5_wp
     ! Tuned [1]: B over A up to which gaps stay as they are, and from which they are turned wholly.
-    ! Origin: chosen: patches longer than wide.
-    real(wp), parameter :: round_ratio = 2.0_wp, slender_ratio = 4.0_wp
-    ! Tuned [1]: part of the determinant. Origin: safeguard: too few points overlap.
-    real(wp), parameter :: least_determinant = 1.0e-9_wp
+    ! Origin: chosen: patches up to 1.6 and from 2.4 times as long as wide.
+    real(wp), parameter :: round_ratio = 2.0_wp, slender_ratio = 2.0_wp*round_ratio
+    ! Part of a determinant that has half of its digits: of fewer than three points nothing is left.
+    real(wp), parameter :: least_determinant = sqrt(epsilon(1.0_wp))
 
 contains
 

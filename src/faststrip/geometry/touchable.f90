@@ -14,7 +14,7 @@ module faststrip_geometry_touchable
     private
 
     public :: touchable_t, find_touchable, touchable_words
-    public :: body_wheel, body_rail, same_place
+    public :: body_wheel, body_rail, same_place, upright
 
     !> What a profile is of.
     !> Given: numbers of kinds.
@@ -36,9 +36,9 @@ module faststrip_geometry_touchable
         real(wp) :: deepest(2) = 0.0_wp     !! largest z of what was clipped there, mm
     end type touchable_t
 
-    ! Steeper is upright: 89.7 degrees.
-    ! Tuned [1]. Origin: the flank of a rail 1:20, canted 1:40, has a slope of 40, and noise of
-    ! 10 um over points 2 mm apart this.
+    !> Steeper is upright, in any frame: 89.7 degrees.
+    !> Tuned [1]. Origin: the flank of a rail 1:20, canted 1:40, has a slope of 40, and noise of
+    !> 10 um over points 2 mm apart this.
     real(wp), parameter :: upright = 200.0_wp
 
     !> Points no farther apart are one that was written twice.

@@ -2,15 +2,17 @@
 module faststrip_geometry_undeformed_gap
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: most_points, most_steps, largest_place, no_length
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_geometry_rigid_contact, only: rigid_contact_t, wheelset_t, largest_length
+    use faststrip_geometry_touchable, only: upright
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument
     implicit none
     private
 
-    public :: make_gap, standard_gap_step, standard_gap_height
+    public :: make_gap, standard_gap_step, standard_gap_height, smallest_step
 
     !> Spacing of the samples, mm.
     !> Tuned [mm]. Origin: chosen: many samples in a strip of the S1002/UIC60 contacts.
@@ -20,23 +22,14 @@ module faststrip_geometry_undeformed_gap
     !> Tuned [mm]. Origin: chosen: some times the penetration of the S1002/UIC60 contacts.
     real(wp), parameter :: standard_gap_height = 0.6_wp
 
-    ! Tuned [mm]: Shortest spacing and smallest radius. Origin: safeguard; digits of profiles end
-    ! there.
-    real(wp), parameter :: smallest_step = 1.0e-3_wp, smallest_radius = 1.0e-6_wp
+    !> Shortest spacing of samples, and least radius, mm.
+    !> Tuned [mm]. Origin: safeguard; digits of profiles end there.
+    real(wp), parameter :: smallest_step = 1.0e-3_wp
 
     ! Least dy'/dy of a profile that still counts as a function of y'.
-    ! Tuned [1]. Origin: safeguard: steeper than 89.9 degrees.
-    real(wp), parameter :: least_along = 1.0e-3_wp
-
-    ! Most samples on either side, most steps to one of them.
-    ! Tuned [1]. Origin: capacity; bisection needs some 60 steps.
-    integer, parameter :: max_samples = 200000, max_iterations = 100
-    ! Tuned [mm]: longest spacing. Origin: safeguard.
-    real(wp), parameter :: largest_step = 1.0e3_wp
-    ! Tuned [mm]: first width of a bracket at least. Origin: safeguard: above rounding.
-    real(wp), parameter :: least_bracket = 1.0e-9_wp
+    real(wp), parameter :: least_along = 1.0_wp/upright
     ! Tuned [1]: residual over the coordinate that ends the steps. Origin: safeguard: above
-    ! rounding.
+    ! rounding; gaps change by 1e-12 mm with ten times as much.
     real(wp), parameter :: exact = 1.0e-13_wp
 
     ! A point of a profile in its own frame and in the turned one.
@@ -79,7 +72,7 @@ contains
         if (is_error(status)) return
         call profile_at(wheel, 0.0_wp, z_line, dz, d2z, status)
         if (is_error(status)) return
-        capacity = min(max_samples, &
+        capacity = min(most_points, &
                    ceiling(2.0_wp*min(wheel%y_last - wheel%y_first, &
                                       rail%y_last - rail%y_first, largest_length)/step) + 1)
         allocate (h(-capacity:capacity), inv2r(-capacity:capacity), &
@@ -123,7 +116,7 @@ contains
                 ! cos(alpha - gamma)/cos(alpha) = cos(gamma) + tan(alpha) sin(gamma) > 0
                 radius = (wheelset%radius + on_wheel%z - z_line) &
                          *(cos(contact%gamma) + on_wheel%dz*sin(contact%gamma))
-                if (radius < smallest_radius) exit
+                if (radius < smallest_step) exit
                 n = j
                 h(side*j) = on_rail%n - on_wheel%n
                 inv2r(side*j) = 0.5_wp/radius
@@ -139,10 +132,10 @@ contains
 
         call clear_status(status)
         valid = ieee_is_finite(step)
-        if (valid) valid = step >= smallest_step .and. step <= largest_step
+        if (valid) valid = step >= smallest_step .and. step <= largest_place
         if (.not. valid) then
             call set_status(status, st_bad_argument, &
-                            'step of the gap must be 0.001 to 1000 mm, got ' &
+                            'step of the gap must be 0.001 to 10000 mm, got ' &
                             // trim(number_text(step)))
             return
         end if
@@ -190,7 +183,7 @@ contains
         near = start
         ! The far end of the bracket: twice the distance to go, and on.
         far = start
-        next = max(2.0_wp*abs(residual)/point%along, least_bracket)
+        next = max(2.0_wp*abs(residual)/point%along, no_length)
         do
             far = max(profile%y_first, min(far + side*next, profile%y_last))
             call turned_at(far, point, residual)
@@ -201,7 +194,7 @@ contains
             next = 2.0_wp*next
         end do
         next = 0.5_wp*(near + far)
-        do i = 1, max_iterations
+        do i = 1, most_steps
             call turned_at(next, point, residual)
             if (point%along <= least_along) return
             if (side*residual > 0.0_wp) then

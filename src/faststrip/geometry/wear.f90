@@ -5,7 +5,7 @@
 !> aligned by its field side, where wheels touch least: the outer four tenths of that half.
 module faststrip_geometry_wear
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_steps
+    use faststrip_base_limits, only: most_steps, no_length
     use faststrip_base_status, only: status_t, set_status, clear_status, &
                                      st_out_of_range, st_no_convergence
     use faststrip_numerics_lu, only: lu_factor, lu_solve
@@ -17,8 +17,6 @@ module faststrip_geometry_wear
     ! Wear is looked for as far as this on both sides of the nominal curve.
     ! Tuned [mm]. Origin: rails and flanges are taken out of use earlier.
     real(wp), parameter :: farthest = 20.0_wp
-    ! Tuned [mm]: steps that end it. Origin: chosen; well below any wear.
-    real(wp), parameter :: settled = 1.0e-9_wp
     ! Where the field side begins, from the middle of the head, over its half width.
     ! Tuned [1]. Origin: wheels wear R300 and R80 of a 60E1 up to there.
     real(wp), parameter :: field_part = 0.6_wp
@@ -177,7 +175,7 @@ contains
             motion(:2) = [motion(1)*cos(right(3)) - motion(2)*sin(right(3)), &
                           motion(1)*sin(right(3)) + motion(2)*cos(right(3))] + right(:2)
             motion(3) = motion(3) + right(3)
-            if (maxval(abs(right*[1.0_wp, 1.0_wp, scale])) < settled) return
+            if (maxval(abs(right*[1.0_wp, 1.0_wp, scale])) < no_length) return
         end do
         if (n < 3 .or. step <= most_steps) then
             call set_status(status, st_out_of_range, 'the profiles have no field side in common')

@@ -10,6 +10,7 @@ module faststrip_geometry_wheelset_state
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_place
     use faststrip_base_plausible, only: quantities, likely_mistake, of_turn
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_argument
@@ -23,8 +24,6 @@ module faststrip_geometry_wheelset_state
     ! Tuned [rad]: roll, yaw and contact angles beyond are refused. Origin: safeguard: lines of a
     ! wheel that is turned farther have no meaning.
     real(wp), parameter :: largest_turn = quantities(of_turn)%possible
-    ! Tuned [mm]: displacements beyond are refused. Origin: safeguard.
-    real(wp), parameter :: largest_displacement = 1.0e4_wp
     !> Creepages are not larger than this.
     !> Tuned [1, rad/mm]. Origin: chosen: what methods take; all of any contact slides long before.
     real(wp), parameter :: largest_creepage = 1.0e6_wp
@@ -123,8 +122,8 @@ contains
         integer :: i
 
         call clear_status(status)
-        call check_value('y', state%y, largest_displacement, 'mm', status)
-        call check_value('z', state%z, largest_displacement, 'mm', status)
+        call check_value('y', state%y, largest_place, 'mm', status)
+        call check_value('z', state%z, largest_place, 'mm', status)
         call check_value('roll', state%roll, largest_turn, 'rad', status)
         call check_value('yaw', state%yaw, largest_turn, 'rad', status)
         call check_value('speed', state%speed, huge(1.0_wp), 'mm/s', status)
@@ -136,8 +135,8 @@ contains
         call check_value('curvature', state%curvature, 1.0_wp, '1/mm', status)
         do i = 1, size(state%rail)
             associate (rail => state%rail(i))
-                call check_value('y of a rail', rail%y, largest_displacement, 'mm', status)
-                call check_value('z of a rail', rail%z, largest_displacement, 'mm', status)
+                call check_value('y of a rail', rail%y, largest_place, 'mm', status)
+                call check_value('z of a rail', rail%z, largest_place, 'mm', status)
                 call check_value('roll of a rail', rail%roll, largest_turn, 'rad', status)
                 call check_value('y_rate of a rail', rail%y_rate, huge(1.0_wp), 'mm/s', status)
                 call check_value('z_rate of a rail', rail%z_rate, huge(1.0_wp), 'mm/s', status)

@@ -8,10 +8,12 @@
 !> wheel's profile and alpha_t of its outline.
 module faststrip_geometry_contact_frame
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_steps
+    use faststrip_base_limits, only: most_steps, equal_within
     use faststrip_base_status, only: status_t, set_status, clear_status, st_no_contact
     use faststrip_geometry_overlap, only: region_t
     use faststrip_geometry_profile, only: profile_at
+    use faststrip_geometry_touchable, only: upright
+    use faststrip_geometry_undeformed_gap, only: smallest_step
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_t, rail_height, &
                                                 rail_origin, turned
     use faststrip_geometry_wheelset_state, only: rail_state_t
@@ -22,13 +24,7 @@ module faststrip_geometry_contact_frame
     public :: place_frame, sample_gap, reserve_frame_gap, in_track, along_normal
 
     ! Least advance of y' over that of y that still counts as a function of y'.
-    ! Tuned [1]. Origin: safeguard: steeper than 89.4 degrees.
-    real(wp), parameter :: least_along = 1.0e-2_wp
-    ! Tuned [mm]: how near to it. Origin: safeguard: above rounding.
-    real(wp), parameter :: exact = 1.0e-12_wp
-    ! Points beside each other in y' that are nearer than this part of the outline's step are one.
-    ! Tuned [mm]. Origin: safeguard: splines want distances.
-    real(wp), parameter :: least_spacing = 1.0e-3_wp
+    real(wp), parameter :: least_along = 1.0_wp/upright
 
     !> Place and direction of a contact.
     type :: contact_frame_t
@@ -170,7 +166,7 @@ contains
                 if (k < region%from .or. k > region%to) exit
                 call take(k, y_from, found)
                 if (.not. found) exit
-                if (step*(gap%y(k) - gap%y(k - step)) < least_spacing) exit
+                if (step*(gap%y(k) - gap%y(k - step)) < smallest_step) exit
                 lowest = min(lowest, gap%h(k))
                 is_inside = k >= region%first .and. k <= region%last
                 if (.not. is_inside .and. gap%h(k) - lowest > height) exit
@@ -207,7 +203,7 @@ contains
                 z = there(2) + origin(2) - frame%origin(3)
                 if (c_rail + slope*s_rail < least_along) return
                 residual = y_turned - y*c - z*s
-                if (abs(residual) <= exact*(1.0_wp + abs(y_turned))) exit
+                if (abs(residual) <= equal_within*(1.0_wp + abs(y_turned))) exit
                 y_from = y_from + residual/(c_rail + slope*s_rail)
                 if (y_from < origin(1) + pair%rail%y_first &
                     .or. y_from > origin(1) + pair%rail%y_last) return

@@ -6,7 +6,8 @@
 !> the middle of its axle, positive where the right wheel goes down; the shift is the middle's.
 module faststrip_geometry_contact_functions
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_halvings, most_steps
+    use faststrip_base_limits, only: most_halvings, most_steps, no_length
+    use faststrip_base_plausible, only: quantities, of_turn
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_contact, st_no_convergence
     use faststrip_geometry_profile, only: profile_t, profile_at
@@ -34,13 +35,8 @@ module faststrip_geometry_contact_functions
         type(rigid_contact_t) :: left  !! where the left one does, in its mirrored frame
     end type contact_functions_t
 
-    ! Tuned [mm]: How far the axle may differ between the sides. Origin: rounding of radii.
-    real(wp), parameter :: height_tolerance = 1.0e-10_wp
-    ! Tuned [mm]: A smaller difference of radii is none. Origin: their rounding on one cone.
-    real(wp), parameter :: radius_rounding = 1.0e-9_wp
-    ! Tuned [rad]: Rolls beyond are not looked at. Origin: safeguard, ten times a flange's height
-    ! over the gauge.
-    real(wp), parameter :: largest_roll = 0.2_wp
+    ! Rolls beyond are not looked at.
+    real(wp), parameter :: largest_roll = quantities(of_turn)%possible
 
 contains
 
@@ -65,7 +61,8 @@ contains
         if (is_error(status)) return
         if (with_roll) call find_roll(right, left, wheelset, functions, status)
         functions%delta_r = functions%right%radius - functions%left%radius
-        if (abs(functions%delta_r) <= radius_rounding) functions%delta_r = 0.0_wp
+        ! What is left on one cone is rounding.
+        if (abs(functions%delta_r) <= no_length) functions%delta_r = 0.0_wp
     end subroutine find_contact_functions
 
     pure subroutine find_level_contact(side, wheelset, track, shift, contact, status)
@@ -105,7 +102,7 @@ contains
                                      functions%left, height(2), slope(2), status)
             if (is_error(status)) return
             ! z points down: the wheel that stops the axle first has the smaller one.
-            if (abs(height(1) - height(2)) <= height_tolerance) return
+            if (abs(height(1) - height(2)) <= no_length) return
             if (height(1) > height(2)) low = functions%roll
             if (height(1) < height(2)) high = functions%roll
             next = low

@@ -13,11 +13,12 @@
 !> A left wheel is given as a right one: in a mirror.
 module faststrip_geometry_wheel_on_rail
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_steps
+    use faststrip_base_limits, only: most_steps, most_points
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_out_of_range
     use faststrip_geometry_profile, only: profile_t, profile_at, profile_none
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, place_rail
+    use faststrip_geometry_undeformed_gap, only: standard_gap_step
     use faststrip_geometry_wheelset_state, only: wheelset_axes_t, rail_state_t
     implicit none
     private
@@ -26,19 +27,18 @@ module faststrip_geometry_wheel_on_rail
     public :: make_wheel_on_rail, reserve_outline, find_outline, rail_height, outline_point
     public :: rail_origin, turned, on_rail_profile
 
-    ! Tuned [mm]: distance of the outline's points along the profile. Origin: chosen: some twenty in
-    ! the narrowest patch of a flange.
-    real(wp), parameter :: outline_step = 0.1_wp
-    ! Tuned [mm]: distance of the rail's samples, of which regions of overlap are found. Origin:
-    ! chosen: between them a cubic.
-    real(wp), parameter :: rail_step = 0.05_wp
+    ! Distance of the rail's samples, of which regions of overlap are found, mm; between them a
+    ! cubic.
+    real(wp), parameter :: rail_step = standard_gap_step
+    ! Distance of the outline's points along the profile, mm: some twenty in the narrowest patch of
+    ! a flange.
+    real(wp), parameter :: outline_step = 2.0_wp*rail_step
     ! Tuned [1]: slope of the rail beyond which its ends are left out. Origin: safeguard: no wheel
     ! touches a flank that stands upright, nor is there a cubic through it.
     real(wp), parameter :: steepest = 50.0_wp
-    ! Tuned [mm]: how near to it. Origin: safeguard: above rounding.
+    ! Tuned [mm]: how near to it on a rail that is turned. Origin: safeguard: above rounding; wheels
+    ! on turned rails change by some last digits with a tenth.
     real(wp), parameter :: near_point = 1.0e-11_wp
-    ! Tuned [points]: most points of an outline and of a rail. Origin: capacity.
-    integer, parameter :: most_points = 200000
 
     !> One wheel and its rail, as a right pair; made once.
     type :: wheel_on_rail_t
