@@ -33,7 +33,7 @@ module faststrip_base_friction
 
     public :: friction_t, check_friction, falls, falling_share, friction_at_angle, softened
     public :: friction_constant, friction_linear, friction_rational, friction_exponential
-    public :: friction_kind, friction_kind_names
+    public :: friction_kind, friction_kind_names, largest_speed
 
     !> How friction falls with slip speed.
     !> Given: CONTACT's numbers, but for the first.
@@ -48,9 +48,9 @@ module faststrip_base_friction
     integer, parameter :: kinds(*) = [friction_constant, friction_linear, friction_rational, &
                                       friction_exponential]
 
-    ! Speeds beyond this, or below its inverse, are refused.
-    ! Tuned [mm/s]. Origin: safeguard.
-    real(wp), parameter :: largest = 1.0e12_wp
+    !> Speeds beyond this, or below its inverse, are refused.
+    !> Tuned [mm/s]. Origin: safeguard.
+    real(wp), parameter :: largest_speed = 1.0e12_wp
     ! Kinetic over static value below this is refused, so that a bound is left to divide by.
     ! Tuned [1]. Origin: safeguard.
     real(wp), parameter :: least_share = 1.0e-6_wp
@@ -108,8 +108,8 @@ contains
                             trim(number_text(friction%speed)) // ' and ' // &
                             trim(number_text(friction%half_slip_speed)) // ' mm/s')
         else if (friction%kind /= friction_constant .and. &
-                 (max(friction%half_slip_speed, friction%speed) > largest .or. &
-                  min(friction%half_slip_speed, friction%speed) < 1.0_wp/largest)) then
+                 (max(friction%half_slip_speed, friction%speed) > largest_speed .or. &
+                  min(friction%half_slip_speed, friction%speed) < 1.0_wp/largest_speed)) then
             call set_status(status, st_out_of_range, 'a speed is beyond 1e-12 to 1e12 mm/s')
         end if
     end subroutine check_friction

@@ -10,30 +10,40 @@ module faststrip_wheelset_approach
     private
 
     public :: approach_search_t, start_search, take_force, is_found, is_near, usual_approach
-    public :: largest_jump, near_enough, most_growth
+    public :: largest_jump, near_enough, most_growth, equilibrium, most_tries
+    public :: telling
 
-    ! Tuned [1]: equilibrium, of the load. Origin: above the digits of a contact's solution.
+    ! Tuned [1]: equilibrium of one wheel, of the load. Origin: above the digits of a contact's
+    ! solution; with 9e-11 forces change by as much.
     real(wp), parameter :: exact = 7.0e-11_wp
+    !> What may be missing of two wheels' loads, over the load, and of their equal heights, over the
+    !> radius.
+    !> Tuned [1]. Origin: above the digits of two solutions, below 1e-10, which strips have.
+    real(wp), parameter :: equilibrium = 9.0e-11_wp
     !> A force as near as this to its load is found, where no step comes nearer.
-    !> Tuned [1]. Origin: chosen: some digits of a contact's solution.
+    !> Tuned [1]. Origin: chosen: a hundred times what solutions of a contact miss.
     real(wp), parameter :: near_enough = 1.0e-8_wp
-    ! Tuned [1]: a bracket that is closed, of its upper end: there the force jumps. Origin: chosen:
-    ! the force of a smooth contact changes by less than near_enough within it.
-    real(wp), parameter :: least_bracket = 1.0e-9_wp
+    ! A bracket that is closed, of its upper end: there the force jumps. That of a smooth contact
+    ! changes by less than near_enough within it.
+    real(wp), parameter :: least_bracket = 0.25_wp*near_enough
+    !> Changes of forces and moments, of the load, that are less tell nothing of slopes.
+    !> Tuned [1]. Origin: chosen: a hundred times near_enough.
+    real(wp), parameter :: telling = 1.0e-6_wp
     !> Largest misfit of a force that jumps which still is an answer.
     !> Tuned [1]. Origin: chosen: as large as errors that are named.
     real(wp), parameter :: largest_jump = 0.1_wp
-    ! Tuned [1]: change of the force, of the load, that still tells its slope. Origin: as
-    ! near_enough.
-    real(wp), parameter :: telling = 1.0e-6_wp
     ! Tuned [N/mm**1.5]: force over the approach to 3/2, for a first guess. Origin: a steel wheel of
     ! 460 mm on a rail of 300 mm.
     real(wp), parameter :: usual_stiffness = 2.0e6_wp
     ! Given: Hertz' law of a point contact.
     real(wp), parameter :: hertz_power = 1.5_wp
     !> Most by which an approach grows or shrinks in a step.
-    !> Tuned [1]. Origin: safeguard.
+    !> Tuned [1]. Origin: safeguard: the force does by eight times.
     real(wp), parameter :: most_growth = 4.0_wp
+    !> Tries of one way before another is taken: secants before halvings, halvings of a step that
+    !> gains nothing, strips for another method's load.
+    !> Tuned [tries]. Origin: chosen: two or three do where forces do not jump.
+    integer, parameter :: most_tries = 8
 
     !> A search, and the approach that it wants to know the force of.
     type :: approach_search_t

@@ -6,7 +6,8 @@ module faststrip_wheelset_balance
                                      st_no_convergence, st_target_missed
     use faststrip_geometry_overlap, only: lowest_height
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
-    use faststrip_wheelset_approach, only: usual_approach, largest_jump, near_enough, most_growth
+    use faststrip_wheelset_approach, only: usual_approach, largest_jump, near_enough, &
+                                           most_growth, equilibrium, most_tries
     use faststrip_wheelset_height, only: set_outline, try_height
     use faststrip_wheelset_loads, only: start_afresh
     use faststrip_wheelset_roll, only: roll_search_t, next_roll, most_roll_step
@@ -18,21 +19,15 @@ module faststrip_wheelset_balance
 
     public :: solve_for_balance, name_missing
 
-    ! Tuned [1]: equilibrium of two wheels, of the load. Origin: above the digits of a contact's
-    ! solution.
-    real(wp), parameter :: exact = 9.0e-11_wp
     ! Given: Hertz' law of a point contact.
     real(wp), parameter :: hertz_power = 1.5_wp
     ! Tuned [1]: slopes are measured anew where more than this is left of what was missing. Origin:
     ! chosen: Broyden's method gains a digit in a step.
     real(wp), parameter :: least_progress = 0.5_wp
-    ! Tuned [1]: of the approach, for measured slopes. Origin: chosen: far above the digits of a
-    ! solution, far below the approach.
-    real(wp), parameter :: difference = 1.0e-4_wp
-    ! Tuned [steps]: halvings of a step. Origin: capacity.
-    integer, parameter :: most_halvings = 8
+    ! Of the approach, for measured slopes: half of the digits that forces have.
+    real(wp), parameter :: difference = sqrt(near_enough)
     ! Tuned [1]: how far apart, of the approach, the wheels' heights may be at the start. Origin:
-    ! chosen: the steps that follow find the rest.
+    ! chosen: loads differ by 15 %, and the steps that follow find the rest.
     real(wp), parameter :: start_apart = 0.1_wp
 
 contains
@@ -128,14 +123,14 @@ contains
         call first_jacobian()
         is_measured = .false.
         do i = 1, steps
-            if (all(abs(left) <= exact*scale)) exit
+            if (all(abs(left) <= equilibrium*scale)) exit
             step = newton_step()
             part = min(1.0_wp, most_roll_step/max(abs(step(2)), tiny(1.0_wp)))
             before = left
             gains = .false.
             ! A wheel may come to carry much less in a step, but not nothing; and what is missing
             ! must not grow.
-            do j = 1, most_halvings
+            do j = 1, most_tries
                 state%z = now(1) + part*step(1)
                 state%roll = now(2) + part*step(2)
                 if (touches_enough()) then
@@ -213,7 +208,7 @@ contains
                 lever = model%pair(side)%y_line
                 if (side == side_left) lever = -lever
                 stiffness = hertz_power*max(result%wheel(side)%force(3), &
-                                            exact*demand%axle_load)/(state%z - touch(side))
+                                            equilibrium*demand%axle_load)/(state%z - touch(side))
                 jacobian(1, 1) = jacobian(1, 1) + stiffness
                 jacobian(1, 2) = jacobian(1, 2) + stiffness*lever
                 jacobian(2, 1) = jacobian(2, 1) + stiffness*lever

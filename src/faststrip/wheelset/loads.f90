@@ -7,7 +7,7 @@ module faststrip_wheelset_loads
                                      st_no_convergence, st_target_missed
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
-                                           is_found, is_near, usual_approach
+                                           is_found, is_near, usual_approach, equilibrium
     use faststrip_wheelset_height, only: set_outline, try_height
     use faststrip_wheelset_roll, only: roll_search_t, next_roll
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
@@ -16,14 +16,13 @@ module faststrip_wheelset_loads
     implicit none
     private
 
-    public :: start_afresh, solve_loads, solve_for_roll, name_jump
+    public :: start_afresh, solve_loads, solve_for_roll, name_jump, equal_at_jump
 
-    ! Tuned [1]: equal heights of two wheels, of the radius. Origin: above the digits of a contact's
-    ! solution.
-    real(wp), parameter :: exact = 9.0e-11_wp
-    ! Tuned [mm]: the same where the force of a wheel jumps over its load. Origin: chosen: a
-    ! hundredth of a usual approach; the height at a jump hangs on how it was reached.
-    real(wp), parameter :: exact_at_jump = 1.0e-3_wp
+    !> What may be missing of equal heights, in mm, and of moments, over the load at its lever,
+    !> where the force of a wheel jumps over its load.
+    !> Tuned [mm, 1]. Origin: chosen: a hundredth of a usual approach, less than most such jumps;
+    !> the height at a jump hangs on how it was reached.
+    real(wp), parameter :: equal_at_jump = 1.0e-3_wp
 
 contains
 
@@ -161,8 +160,8 @@ contains
             if (is_error(status)) return
             workspace%has_last = .true.
             apart = result%wheel(side_right)%z - result%wheel(side_left)%z
-            if (abs(apart) <= exact*model%radius) return
-            if (status%code == st_target_missed .and. abs(apart) <= exact_at_jump) return
+            if (abs(apart) <= equilibrium*model%radius) return
+            if (status%code == st_target_missed .and. abs(apart) <= equal_at_jump) return
             call next_roll(search, apart, model%pair(side_right)%y_line, state%roll)
         end do
         call set_status(status, st_no_convergence, 'no roll was found at which both wheels touch')

@@ -7,7 +7,7 @@ module faststrip_wheelset_roll
     public :: roll_search_t, next_roll, most_roll_step
 
     !> Largest step of the roll.
-    !> Tuned [rad]. Origin: safeguard.
+    !> Tuned [rad]. Origin: safeguard: a wheel goes down by a flange's height, 15 mm.
     real(wp), parameter :: most_roll_step = 0.02_wp
 
     !> A search; as declared it has not begun.

@@ -10,7 +10,8 @@ module faststrip_wheelset_share
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_convergence, st_target_missed
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
-    use faststrip_wheelset_loads, only: start_afresh, solve_for_roll
+    use faststrip_wheelset_approach, only: most_tries, telling
+    use faststrip_wheelset_loads, only: start_afresh, solve_for_roll, equal_at_jump
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheelset_workspace_t, side_right, side_left, demand_loads
     implicit none
@@ -18,15 +19,9 @@ module faststrip_wheelset_share
 
     public :: solve_for_share
 
-    ! Tuned [1]: of the axle load at its lever. Origin: chosen: as far as equal heights are exact.
-    real(wp), parameter :: near_enough = 1.0e-6_wp
-    ! Tuned [1]: the same where the force of a wheel jumps over its load. Origin: chosen: smaller
-    ! than most such jumps.
-    real(wp), parameter :: near_a_jump = 1.0e-3_wp
-    ! Tuned [1]: a bracket of the share that is closed. Origin: chosen: below near_enough.
-    real(wp), parameter :: least_bracket = 1.0e-7_wp
-    ! Tuned [steps]: then halves. Origin: chosen: a moment that jumps is no straight line.
-    integer, parameter :: most_secants = 8
+    ! A bracket of the share that is closed: over it a moment that does not jump changes by less
+    ! than telling.
+    real(wp), parameter :: least_bracket = 0.25_wp*telling
 
 contains
 
@@ -66,7 +61,7 @@ contains
             left = result%wheel(side_right)%moment(1) - result%wheel(side_left)%moment(1) &
                    - demand%roll_moment
             if (abs(left) <= demand%axle_load*lever &
-                *merge(near_a_jump, near_enough, status%code == st_target_missed)) return
+                *merge(equal_at_jump, telling, status%code == st_target_missed)) return
             if (left < 0.0_wp) then
                 low = more
                 has_low = .true.
@@ -83,7 +78,7 @@ contains
             left_before = left
             next = more - left/slope
             if (has_low .and. has_high .and. (next <= low .or. next >= high &
-                                              .or. i > most_secants)) next = 0.5_wp*(low + high)
+                                              .or. i > most_tries)) next = 0.5_wp*(low + high)
             ! The ends themselves, too, until they are known.
             more = max(low, min(next, high))
         end do

@@ -20,7 +20,7 @@ module faststrip_wheelset_solve
     use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail, reserve_outline
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state, reversed_state
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
-                                           is_found, usual_approach
+                                           is_found, usual_approach, most_tries
     use faststrip_wheelset_balance, only: solve_for_balance
     use faststrip_wheelset_guide, only: needs_guide, take_guide
     use faststrip_wheelset_height, only: set_outline, try_height
@@ -38,8 +38,6 @@ module faststrip_wheelset_solve
     ! Tuned [1]: of the load, how near a method comes whose height strips find. Origin: chosen: far
     ! below what methods differ by.
     real(wp), parameter :: near_load = 1.0e-4_wp
-    ! Tuned [rounds]: Most of them. Origin: safeguard; two are usual.
-    integer, parameter :: most_rounds = 5
 
 contains
 
@@ -235,7 +233,7 @@ contains
 
         start = state
         guide = demand
-        do round = 1, most_rounds
+        do round = 1, most_tries
             state = start
             ! What the other methods left in the workspaces is no start for strips.
             workspace%wheel%n = 0
@@ -262,7 +260,7 @@ contains
             guide%load = guide%load*share
             guide%axle_load = guide%axle_load*share(1)
         end do
-        if (round > most_rounds) call set_status(status, st_target_missed, &
+        if (round > most_tries) call set_status(status, st_target_missed, &
             'the vertical force is not the one asked for: it differs by a share of ' // &
             number_text(maxval(abs(share - 1.0_wp))))
     end subroutine solve_guided

@@ -6,7 +6,7 @@
 !> place is that of the gap's point it came from.
 module faststrip_wheelset_strips
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_steps
+    use faststrip_base_limits, only: most_steps, equal_within
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_bad_argument
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap
@@ -23,9 +23,6 @@ module faststrip_wheelset_strips
     private
 
     public :: wheel_strips_t, find_wheel_strips
-
-    ! Tuned [mm]: how near to it. Origin: safeguard: above rounding.
-    real(wp), parameter :: exact = 1.0e-12_wp
 
     !> Strips of one contact, in its frame, and their places.
     type :: wheel_strips_t
@@ -147,7 +144,7 @@ contains
             do i = 1, most_steps
                 call rail_height(pair, rail, y, z, slope, is_there)
                 residual = along - (y - frame%origin(2))*c - (z - frame%origin(3))*s
-                if (.not. is_there .or. abs(residual) <= exact*(1.0_wp + abs(along))) exit
+                if (.not. is_there .or. abs(residual) <= equal_within*(1.0_wp + abs(along))) exit
                 y = y + residual/(c + slope*s)
             end do
         end associate

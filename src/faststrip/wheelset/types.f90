@@ -7,6 +7,7 @@ module faststrip_wheelset_types
     use faststrip_contact_method, only: contact_result_t, workspace_t
     use faststrip_geometry_contact_frame, only: frame_gap_t
     use faststrip_geometry_overlap, only: region_t, most_regions
+    use faststrip_geometry_undeformed_gap, only: standard_gap_height
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_t
     use faststrip_geometry_wheelset_state, only: wheelset_axes_t, wheelset_state_t
     implicit none
@@ -30,6 +31,15 @@ module faststrip_wheelset_types
     !> Given: a number of kinds.
     integer, parameter :: demand_axle_load = 2
 
+    ! Regions nearer than this are one contact.
+    ! Tuned [mm]. Origin: as CONTACT separates patches.
+    real(wp), parameter :: standard_join = 8.0_wp
+    ! From half as far again on they turn.
+    real(wp), parameter :: standard_turn = standard_join + 0.5_wp*standard_join
+    ! Gaps stand over their deepest point, not over a rigid contact: over ten times the usual
+    ! penetration.
+    real(wp), parameter :: standard_height = 0.5_wp*standard_gap_height
+
     !> Most contacts of one wheel.
     integer, parameter :: most_contacts = most_regions
 
@@ -39,13 +49,10 @@ module faststrip_wheelset_types
         real(wp) :: radius = 0.0_wp             !! mean of the nominal radii, mm
         type(contact_case_t) :: case            !! material, friction, methods; its load, gap and
                                                 !! creepages are not used
-        ! Tuned [mm]: Origin: chosen: as CONTACT separates patches.
-        real(wp) :: join_distance = 8.0_wp      !! regions nearer than this are one contact, mm
-        ! Tuned [mm]. Origin: chosen: half as far again.
-        real(wp) :: turn_distance = 12.0_wp
+        real(wp) :: join_distance = standard_join !! regions nearer than this are one contact, mm
+        real(wp) :: turn_distance = standard_turn
             !! contacts nearer than this turn towards the angle they will have as one, mm
-        ! Tuned [mm]. Origin: chosen: over ten times the usual penetration.
-        real(wp) :: gap_height = 0.3_wp         !! how high gaps are sampled, mm
+        real(wp) :: gap_height = standard_height  !! how high gaps are sampled, mm
     end type wheelset_model_t
 
     !> What is prescribed.

@@ -1,6 +1,6 @@
 !> The contacts of one wheel at a given height: from the overlap to the forces.
 module faststrip_wheelset_wheel
-    use faststrip_base_friction, only: friction_at_angle
+    use faststrip_base_friction, only: friction_at_angle, largest_speed
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_out_of_range
     use faststrip_contact_case, only: contact_case_t
@@ -29,9 +29,9 @@ module faststrip_wheelset_wheel
     ! Tuned [1]: of the strips' last step. Origin: searches of a load see no noise beside the
     ! equilibrium of 1e-10 that they look for.
     real(wp), parameter :: strip_tolerance = 1.0e-10_wp
-    ! Tuned [mm/s]: falling friction takes a wheelset that rolls slower than this as one that rolls
-    ! so. Origin: chosen: the least that friction takes; slip is nothing there.
-    real(wp), parameter :: least_speed = 1.0e-12_wp
+    ! Falling friction takes a wheelset that rolls slower than this, in mm/s, as one that rolls so:
+    ! slip is nothing there.
+    real(wp), parameter :: least_speed = 1.0_wp/largest_speed
 
 contains
 
