@@ -5,8 +5,8 @@ module faststrip_base_limits
     private
 
     public :: most_steps, most_halvings, smallest_size, largest_size, nothing, beyond_all
-    public :: too_large, largest_ratio, rounding, half_digits
-    public :: most_points, largest_place, no_length, equal_within
+    public :: too_large, largest_ratio, rounding, half_digits, equal_within
+    public :: most_points, largest_place
 
     !> Most steps of a search that goes on until it is there.
     !> Tuned [steps]. Origin: safeguard: Newton's and secant steps take three to ten, a bracket that
@@ -24,8 +24,9 @@ module faststrip_base_limits
     !> Numbers above stand for infinite ones, or are refused.
     !> Tuned [1]. Origin: safeguard: squares cannot overflow.
     real(wp), parameter :: beyond_all = 1.0e100_wp
-    !> Numbers that people gave as decimals and that differ by less are the same.
-    !> Tuned [mm, 1]. Origin: safeguard: above rounding, below what anybody writes.
+    !> Lengths, and numbers given as decimals, that differ by less are the same.
+    !> Tuned [mm, 1]. Origin: a hundredth of an atom, ten thousand roundings of a radius; below what
+    !> anybody writes.
     real(wp), parameter :: rounding = 1.0e-9_wp
     !> Lengths, loads and compliances above are refused: products of them do not overflow.
     real(wp), parameter :: too_large = 1.0_wp/nothing
@@ -42,9 +43,6 @@ module faststrip_base_limits
     !> Coordinates and displacements beyond are refused: they are not in mm.
     !> Tuned [mm]. Origin: safeguard: 10 m.
     real(wp), parameter :: largest_place = 1.0e4_wp
-    !> Lengths that differ by less are the same.
-    !> Tuned [mm]. Origin: a hundredth of an atom, ten thousand roundings of a radius.
-    real(wp), parameter :: no_length = 1.0e-9_wp
     !> Coordinates, and numbers over their size, that differ by less agree as far as they can.
     !> Tuned [mm, 1]. Origin: some roundings of a place in the track, and of sums over some hundred.
     real(wp), parameter :: equal_within = 1.0e-12_wp

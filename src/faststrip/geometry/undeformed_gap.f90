@@ -2,7 +2,7 @@
 module faststrip_geometry_undeformed_gap
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: most_points, most_steps, largest_place, no_length
+    use faststrip_base_limits, only: most_points, most_steps, largest_place, rounding
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_geometry_rigid_contact, only: rigid_contact_t, wheelset_t, largest_length
     use faststrip_geometry_touchable, only: upright
@@ -183,7 +183,7 @@ contains
         near = start
         ! The far end of the bracket: twice the distance to go, and on.
         far = start
-        next = max(2.0_wp*abs(residual)/point%along, no_length)
+        next = max(2.0_wp*abs(residual)/point%along, rounding)
         do
             far = max(profile%y_first, min(far + side*next, profile%y_last))
             call turned_at(far, point, residual)

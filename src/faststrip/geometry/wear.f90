@@ -5,7 +5,7 @@
 !> aligned by its field side, where wheels touch least: the outer four tenths of that half.
 module faststrip_geometry_wear
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_steps, no_length
+    use faststrip_base_limits, only: most_steps, rounding
     use faststrip_base_status, only: status_t, set_status, clear_status, &
                                      st_out_of_range, st_no_convergence
     use faststrip_numerics_lu, only: lu_factor, lu_solve
@@ -175,7 +175,7 @@ contains
             motion(:2) = [motion(1)*cos(right(3)) - motion(2)*sin(right(3)), &
                           motion(1)*sin(right(3)) + motion(2)*cos(right(3))] + right(:2)
             motion(3) = motion(3) + right(3)
-            if (maxval(abs(right*[1.0_wp, 1.0_wp, scale])) < no_length) return
+            if (maxval(abs(right*[1.0_wp, 1.0_wp, scale])) < rounding) return
         end do
         if (n < 3 .or. step <= most_steps) then
             call set_status(status, st_out_of_range, 'the profiles have no field side in common')

@@ -6,7 +6,7 @@
 !> the middle of its axle, positive where the right wheel goes down; the shift is the middle's.
 module faststrip_geometry_contact_functions
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_halvings, most_steps, no_length
+    use faststrip_base_limits, only: most_halvings, most_steps, rounding
     use faststrip_base_plausible, only: quantities, of_turn
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_contact, st_no_convergence
@@ -62,7 +62,7 @@ contains
         if (with_roll) call find_roll(right, left, wheelset, functions, status)
         functions%delta_r = functions%right%radius - functions%left%radius
         ! What is left on one cone is rounding.
-        if (abs(functions%delta_r) <= no_length) functions%delta_r = 0.0_wp
+        if (abs(functions%delta_r) <= rounding) functions%delta_r = 0.0_wp
     end subroutine find_contact_functions
 
     pure subroutine find_level_contact(side, wheelset, track, shift, contact, status)
@@ -102,7 +102,7 @@ contains
                                      functions%left, height(2), slope(2), status)
             if (is_error(status)) return
             ! z points down: the wheel that stops the axle first has the smaller one.
-            if (abs(height(1) - height(2)) <= no_length) return
+            if (abs(height(1) - height(2)) <= rounding) return
             if (height(1) > height(2)) low = functions%roll
             if (height(1) < height(2)) high = functions%roll
             next = low
