@@ -13,7 +13,7 @@ from typing import Any, List, Sequence, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from ._library import BAD_ARGUMENT, NOT_FINITE, FaststripError, word_of
+from ._library import NOT_FINITE, FaststripError, bad_argument, word_of
 
 Array = npt.NDArray[np.float64]
 LONGEST = 60  # characters of a value in a message
@@ -21,8 +21,7 @@ LONGEST = 60  # characters of a value in a message
 
 def refused(name: str, must: str, value: Any) -> FaststripError:
     """The error that says which argument must be what, and what was passed."""
-    return FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                          f"{name} must be {must}, got {_shown(value)}")
+    return bad_argument(f"{name} must be {must}, got {_shown(value)}")
 
 
 def _shown(value: Any) -> str:
@@ -58,19 +57,21 @@ def whole(name: str, value: Any, least: int, most: int, or_else: str = "") -> in
     return value
 
 
+def _real(name: str, must: str, value: Any) -> float:
+    """A number, of Python or numpy; one that is too large is infinite."""
+    if _not_a_real_number(value):
+        raise refused(name, must, value)
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+    except (TypeError, ValueError):
+        raise refused(name, must, value) from None
+
+
 def number(name: str, value: Any) -> float:
     """A finite number, of Python or numpy."""
-    if type(value) is not float:
-        if _not_a_real_number(value):
-            raise refused(name, "a number", value)
-        try:
-            found = float(value)
-        except OverflowError:
-            found = math.inf
-        except (TypeError, ValueError):
-            raise refused(name, "a number", value) from None
-    else:
-        found = value
+    found = value if type(value) is float else _real(name, "a number", value)
     if not math.isfinite(found):
         raise FaststripError(NOT_FINITE, word_of(NOT_FINITE),
                              f"{name} must be finite, got {_shown(value)}")
@@ -80,14 +81,7 @@ def number(name: str, value: Any) -> float:
 def above_zero(name: str, value: Any) -> float:
     """A number above 0, of Python or numpy; infinity will do."""
     must = "a number above 0"
-    if _not_a_real_number(value):
-        raise refused(name, must, value)
-    try:
-        found = float(value)
-    except OverflowError:
-        found = math.inf if value > 0 else -math.inf
-    except (TypeError, ValueError):
-        raise refused(name, must, value) from None
+    found = _real(name, must, value)
     if not found > 0.0:
         raise refused(name, must, value)
     return found
@@ -163,7 +157,6 @@ def as_long_as(points: Array, name: str, value: Any) -> Array:
         return np.full(points.shape, found[()])
     if found.shape != points.shape:
         length = str(found.size) if found.ndim == 1 else f"shape {found.shape}"
-        raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                             f"{name} must be as long as y, {points.size}, or one number, "
-                             f"got {length}")
+        raise bad_argument(f"{name} must be as long as y, {points.size}, or one number, "
+                           f"got {length}")
     return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import _thread
 import ctypes
 import operator
 from ctypes import c_double, c_int, c_void_p
@@ -27,15 +26,16 @@ from ._arguments import (
 from ._catalogue import Case, Figures
 from ._interrupt import interruptible
 from ._library import (
-    BAD_ARGUMENT,
     FIRST_ERROR,
-    TEXT,
     TOO_SMALL,
     FaststripError,
+    Handle,
+    bad_argument,
     check,
     check_case,
     library,
     limitation_words,
+    told,
     warn_of_doubts,
     word_of,
 )
@@ -139,8 +139,7 @@ _NAMES_OF_TANGENTIAL = {number: name for name, number in TANGENTIAL.items()}
 def number_of(names: Dict[str, int], name: Any, what: str) -> int:
     """The number of a name, of those there are."""
     if not isinstance(name, str) or name not in names:
-        raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                             f"{what} must be one of {', '.join(names)}, got {name!r}")
+        raise bad_argument(f"{what} must be one of {', '.join(names)}, got {name!r}")
     return names[name]
 
 
@@ -247,17 +246,6 @@ def strip_wear(call: Any, function: Any, n_strips: int, law: Optional[WearLaw],
                      *((row.copy() if law is not None else None) for row in arrays[4:]))
 
 
-class _Workspace:
-    """A workspace of the library, freed with the last that holds it: so not during a call."""
-
-    def __init__(self) -> None:
-        self.handle = c_void_p()
-        self.in_use = _thread.allocate_lock()
-
-    def __del__(self, free: Any = library.faststrip_free, byref: Any = ctypes.byref) -> None:
-        free(byref(self.handle))
-
-
 class Contact:
     """One wheel on one rail: methods, their workspace, the gap, the last solution.
 
@@ -293,7 +281,7 @@ class Contact:
                  fastsim_grid: Tuple[int, int] = (50, 50), with_elements: bool = False,
                  max_points: int = 1000, estimate: bool = True,
                  resolution_limit: float = 0.1, force_limit: float = 0.1) -> None:
-        self._workspace: Optional[_Workspace] = None
+        self._workspace: Optional[Handle] = None
         self._closed = False
         self._material: Any = Material  # that is in the case; none yet
         self._friction: Any = CONSTANT  # that is in the case
@@ -303,10 +291,10 @@ class Contact:
         self._reserve(whole("max_points", max_points, *GAP_POINTS))
 
     def _reserve(self, max_points: int) -> None:
-        workspace, case = _Workspace(), self._case
+        workspace, case = Handle(library.faststrip_free), self._case
         arguments = ctypes.byref(case), max_points, ctypes.byref(workspace.handle)
 
-        def make() -> Tuple[int, _Workspace]:
+        def make() -> Tuple[int, Handle]:
             return library.faststrip_new(*arguments), workspace
 
         # A large workspace is a matter of seconds too.
@@ -329,19 +317,17 @@ class Contact:
         self._workspace = None
         self._case = Case.from_buffer_copy(self._case)
 
-    def _open_workspace(self) -> _Workspace:
+    def _open_workspace(self) -> Handle:
         if self._workspace is None:
-            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 "the contact is closed" if self._closed else
-                                 "the last call was interrupted: set the gap again")
+            raise bad_argument("the contact is closed" if self._closed else
+                               "the last call was interrupted: set the gap again")
         return self._workspace
 
     def _call(self, function: Any, *arguments: Any, long: bool = False, keep: Any = None) -> int:
         """The status of a call on the workspace; if it is long, `keep` is kept until its end."""
         workspace = self._open_workspace()
         if not workspace.in_use.acquire(False):
-            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 "the contact is in use by another thread")
+            raise bad_argument("the contact is in use by another thread")
         try:
             if long:
                 def call(kept: Any = keep) -> Any:
@@ -397,21 +383,17 @@ class Contact:
         """
         if turn is not None:
             if inclination is not None:
-                raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                     "inclination must not be given twice, got turn too")
+                raise bad_argument("inclination must not be given twice, got turn too")
             inclination = turn
         if isinstance(y, (Gap, tuple)) and h is None and inv2r is None and inclination is None:
             y, h, inv2r, inclination = [*parts_of_gap("a gap", y), None][:4]
         elif isinstance(y, Gap):
-            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 "a Gap must be given alone: it has h, inv2r and inclination")
+            raise bad_argument("a Gap must be given alone: it has h, inv2r and inclination")
         points = array("y", y)
         if points.ndim != 1:
-            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 f"y must be one-dimensional, got shape {points.shape}")
+            raise bad_argument(f"y must be one-dimensional, got shape {points.shape}")
         if points.size > GAP_POINTS[1]:
-            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 f"y must have at most {GAP_POINTS[1]} points, got {points.size}")
+            raise bad_argument(f"y must have at most {GAP_POINTS[1]} points, got {points.size}")
         others = [as_long_as(points, "h", h), as_long_as(points, "inv2r", inv2r)]
         if inclination is not None:
             others.append(as_long_as(points, "inclination", inclination))
@@ -478,9 +460,8 @@ class Contact:
             Of a number that no contact has in practice, mostly a unit; nothing changes by it.
         """
         if (load is None) == (penetration is None):
-            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 "one of load and penetration must be given, got "
-                                 + ("none" if load is None else "both"))
+            raise bad_argument("one of load and penetration must be given, got "
+                               + ("none" if load is None else "both"))
         case = self._case
         case.by_load = load is not None
         case.load = 0.0 if load is None else number("load", load)
@@ -716,6 +697,4 @@ def kalker(a_over_b: float, nu: float = 0.28) -> Tuple[float, float, float, floa
 
 def library_version() -> str:
     """The version of the library, which is that of this package or a compatible one."""
-    text = ctypes.create_string_buffer(TEXT)
-    library.faststrip_version(text, TEXT)
-    return text.value.decode("ascii")
+    return told(library.faststrip_version)

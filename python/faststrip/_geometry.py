@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import array, as_long_as, flag, refused
-from ._library import FIRST_ERROR, TEXT, FaststripError, library, word_of
+from ._library import FIRST_ERROR, library, told, word_of
 from ._profile import Profile
 from ._record import Table
 from ._wheelset import setup_of
@@ -174,9 +174,9 @@ gauge_depth, rail_distance, inclination, cant
                                     inclination, cant)
     functions = np.zeros((shifts.size, N_FUNCTIONS))
     states = np.zeros(shifts.size, dtype=np.int32)
-    _call(library.faststrip_contact_functions, ctypes.byref(setup), wheels, rails,
-          flag("roll", roll), shifts.size, shifts.ctypes.data, functions.ctypes.data,
-          states.ctypes.data)
+    told(library.faststrip_contact_functions, ctypes.byref(setup), wheels, rails,
+         flag("roll", roll), shifts.size, shifts.ctypes.data, functions.ctypes.data,
+         states.ctypes.data)
     there = states == 0
     return ContactFunctions(shifts[there], *functions[there].T.copy())
 
@@ -206,9 +206,9 @@ def conicity(y: npt.ArrayLike, delta_r: npt.ArrayLike, amplitudes: npt.ArrayLike
     radii = as_long_as(shifts, "delta_r", delta_r)
     equilibrium, found = np.zeros(2), np.zeros((wanted.size, N_CONICITIES))
     states = np.zeros((wanted.size, 2), dtype=np.int32)
-    _call(library.faststrip_conicity, shifts.size, shifts.ctypes.data, radii.ctypes.data,
-          wanted.size, wanted.ctypes.data, equilibrium.ctypes.data, found.ctypes.data,
-          states.ctypes.data)
+    told(library.faststrip_conicity, shifts.size, shifts.ctypes.data, radii.ctypes.data,
+         wanted.size, wanted.ctypes.data, equilibrium.ctypes.data, found.ctypes.data,
+         states.ctypes.data)
     found[states[:, 0] >= FIRST_ERROR] = np.nan
     found[states[:, 0] != 0, 0] = np.nan
     found[states[:, 1] == 0, 4:] = np.nan
@@ -222,10 +222,3 @@ def _row(name: str, value: Any) -> Array:
     if found.ndim != 1:
         raise refused(name, "a row of numbers", value)
     return found
-
-
-def _call(function: Any, *arguments: Any) -> None:
-    text = ctypes.create_string_buffer(TEXT)
-    status = function(*arguments, text, TEXT)
-    if status >= FIRST_ERROR:
-        raise FaststripError(status, word_of(status), text.value.decode("ascii", "replace"))

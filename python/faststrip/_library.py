@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import ctypes
 import ctypes.util
 import functools
@@ -157,12 +158,42 @@ library = _load()
 _declare(library)
 
 
+def said(function: Any, *arguments: Any) -> Tuple[int, str]:
+    """Status and words of a call whose last arguments are a text and its size."""
+    text = ctypes.create_string_buffer(TEXT)
+    status = function(*arguments, text, TEXT)
+    return status, text.value.decode("utf-8", "replace")
+
+
+def told(function: Any, *arguments: Any) -> str:
+    """The words of such a call; raises what is an error."""
+    status, words = said(function, *arguments)
+    if status >= FIRST_ERROR:
+        raise FaststripError(status, word_of(status), words)
+    return words
+
+
 @functools.lru_cache(maxsize=None)
 def word_of(status: int) -> str:
     """The word of a status."""
-    text = ctypes.create_string_buffer(TEXT)
-    library.faststrip_message(status, text, TEXT)
-    return text.value.decode("ascii")
+    return said(library.faststrip_message, status)[1]
+
+
+def bad_argument(message: str) -> FaststripError:
+    """The error of an argument."""
+    return FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), message)
+
+
+class Handle:
+    """Something of the library, freed with the last that holds it: so not during a call."""
+
+    def __init__(self, free: Any) -> None:
+        self.handle = c_void_p()
+        self.in_use = _thread.allocate_lock()
+        self._free = free
+
+    def __del__(self, byref: Any = ctypes.byref) -> None:
+        self._free(byref(self.handle))
 
 
 def limitation_words(limitations: int) -> Tuple[str, ...]:
@@ -189,9 +220,7 @@ def check(status: int, workspace: Optional[c_void_p] = None, **values: Any) -> i
         return status
     words = ", ".join(f"{name} = {value!r}" for name, value in values.items())
     if workspace:
-        text = ctypes.create_string_buffer(TEXT)
-        library.faststrip_last_message(workspace, text, TEXT)
-        words = text.value.decode("ascii")
+        words = said(library.faststrip_last_message, workspace)[1]
     raise FaststripError(status, word_of(status), words)
 
 
@@ -201,21 +230,19 @@ class ImplausibleWarning(UserWarning):
 
 def warn_of_doubts(workspace: c_void_p, stacklevel: int = 3) -> None:
     """Warn of what was outside of practice in the last call of a workspace or a wheelset."""
-    text = ctypes.create_string_buffer(TEXT)
     for i in range(100):
-        library.faststrip_doubt(workspace, i, text, TEXT)
-        if not text.value:
+        words = said(library.faststrip_doubt, workspace, i)[1]
+        if not words:
             return
-        warnings.warn(text.value.decode("ascii", "replace"), ImplausibleWarning, stacklevel)
+        warnings.warn(words, ImplausibleWarning, stacklevel)
 
 
 def check_case(case: Case, max_points: int) -> None:
     """Raise what a case without a workspace is refused for."""
-    text = ctypes.create_string_buffer(TEXT)
-    status = library.faststrip_check_case(ctypes.byref(case), max_points, text, TEXT)
+    status, words = said(library.faststrip_check_case, ctypes.byref(case), max_points)
     if status >= FIRST_ERROR:
         size = f"strips_per_patch {case.strips_per_patch}, max_points {max_points}"
         if case.with_elements:
             size += (f", with_elements, points_per_strip {case.points_per_strip},"
                      f" fastsim_grid {case.fastsim_nx} x {case.fastsim_ny}")
-        raise FaststripError(status, word_of(status), f"{text.value.decode('ascii')} ({size})")
+        raise FaststripError(status, word_of(status), f"{words} ({size})")

@@ -4,22 +4,21 @@ from __future__ import annotations
 
 import ctypes
 import os
-from ctypes import c_void_p
 from dataclasses import dataclass
-from typing import Any, Dict, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._arguments import array, flag, refused
-from ._library import FIRST_ERROR, TEXT, FaststripError, library, word_of
+from ._library import FIRST_ERROR, FaststripError, Handle, library, told, word_of
 from ._record import Record
-from ._tables import dataset, frame
+from ._tables import dataset, dims_of, frame
 
 Array = npt.NDArray[np.float64]
 ORDERS = {"linear": 1, "cubic": 3}
 STATE = ("a", "b", "load", "mu", "g", "cksi", "ceta", "cphi")
-N_FORCES, N_STATE, N_ABOUT = 3, 8, 23
+N_FORCES, N_ABOUT = 3, 23
 
 
 @dataclass(frozen=True)
@@ -68,12 +67,7 @@ class LookedUp(Record):
         xarray.Dataset
             With ``units`` and ``long_name``.
         """
-        n = self.status.ndim
-        if dims is None:
-            dims = ["state"] if n == 1 else [f"state_{k}" for k in range(n)]
-        elif isinstance(dims, str) or len(dims) != n:
-            raise refused("dims", f"{n} names", dims)
-        return dataset(self._columns(), dims)
+        return dataset(self._columns(), dims_of(dims, self.status.ndim, "state"))
 
 
 class Lookup:
@@ -101,20 +95,13 @@ class Lookup:
     """
 
     def __init__(self, table: Union[str, os.PathLike[str], bytes]) -> None:
-        self._handle = opened(table)
-        numbers = (ctypes.c_double * N_ABOUT)()
-        status = library.faststrip_lookup_about(self._handle, numbers)
-        if status >= FIRST_ERROR:
-            raise FaststripError(status, word_of(status), "the table of a wheel: take WheelLookup")
+        self._table, numbers = opened(table, library.faststrip_lookup_about, N_ABOUT,
+                                      "the table of a wheel: take WheelLookup")
         self.nu = numbers[0]
         self.promised = numbers[1]
         self.tested = int(numbers[2])
         self.least_ab, self.most_ab = numbers[3], numbers[4]
         self.errors = np.array(numbers[5:]).reshape(2, 3, 3)
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None):
-            library.faststrip_lookup_free(ctypes.byref(self._handle))
 
     def __call__(self, a: npt.ArrayLike, b: npt.ArrayLike, load: npt.ArrayLike,
                  mu: npt.ArrayLike, g: npt.ArrayLike, creepage: Tuple[Any, Any, Any], *,
@@ -149,29 +136,24 @@ class Lookup:
             If all fail.
         """
         states, shape = stacked(STATE, (a, b, load, mu, g, *three(creepage)))
-        number = order_number(order)
-        n = states.shape[0]
-        forces = np.zeros((n, N_FORCES))
-        slopes = np.zeros((n if flag("jacobian", jacobian) else 0, N_STATE, N_FORCES))
-        codes = np.zeros(n, dtype=np.int32)
-        status = library.faststrip_lookup_forces(
-            self._handle, number, n, states.ctypes.data, forces.ctypes.data,
-            slopes.ctypes.data if jacobian else None, codes.ctypes.data)
-        return looked_up(status, forces, slopes, codes, shape)
+        return looked_up(library.faststrip_lookup_forces, self._table, order, jacobian, shape,
+                         states)
 
 
-def opened(table: Union[str, os.PathLike[str], bytes]) -> c_void_p:
-    """The handle of a table."""
-    handle = c_void_p()
+def opened(table: Union[str, os.PathLike[str], bytes], about: Any, count: int,
+           other: str) -> Tuple[Handle, List[float]]:
+    """A table and so many numbers about it; `other` is what it is if it has none of these."""
+    handle = Handle(library.faststrip_lookup_free)
     content = table
     if not isinstance(content, bytes):
         with open(content, "rb") as file:
             content = file.read()
-    text = ctypes.create_string_buffer(TEXT)
-    status = library.faststrip_lookup_open(content, len(content), ctypes.byref(handle), text, TEXT)
+    told(library.faststrip_lookup_open, content, len(content), ctypes.byref(handle.handle))
+    numbers = (ctypes.c_double * count)()
+    status = about(handle.handle, numbers)
     if status >= FIRST_ERROR:
-        raise FaststripError(status, word_of(status), text.value.decode("ascii", "replace"))
-    return handle
+        raise FaststripError(status, word_of(status), other)
+    return handle, numbers[:]
 
 
 def order_number(order: str) -> int:
@@ -204,16 +186,28 @@ def stacked(names: Sequence[str], values: Sequence[Any]) -> Tuple[Array, Tuple[i
     return np.stack([part.ravel() for part in parts], axis=-1), parts[0].shape
 
 
-def looked_up(status: int, forces: Array, slopes: Array, codes: npt.NDArray[np.int32],
-              shape: Tuple[int, ...]) -> LookedUp:
-    """Forces in the shape of the states; nan where there are none. Raises if all failed."""
-    n = len(codes)
+def failed(status: int, codes: npt.NDArray[np.int32], what: str) -> npt.NDArray[np.bool_]:
+    """Where a table has nothing. Raises if that is everywhere."""
     bad = codes >= FIRST_ERROR
-    if n and bad.all() or status >= FIRST_ERROR and not bad.any():
-        raise FaststripError(status, word_of(status), f"no state of {n} is in the table")
+    if bad.size and bad.all() or status >= FIRST_ERROR and not bad.any():
+        raise FaststripError(status, word_of(status), f"no {what} of {bad.size} is in the table")
+    return bad
+
+
+def looked_up(function: Any, table: Handle, order: str, jacobian: bool, shape: Tuple[int, ...],
+              states: Array, *slots: Array) -> LookedUp:
+    """Forces in the shape of the states; nan where there are none. Raises if all failed."""
+    number = order_number(order)
+    n, n_state = states.shape
+    wanted = flag("jacobian", jacobian)
+    forces = np.zeros((n, N_FORCES))
+    slopes = np.zeros((n if wanted else 0, n_state, N_FORCES))
+    codes = np.zeros(n, dtype=np.int32)
+    status = function(table.handle, number, n, *(slot.ctypes.data for slot in slots),
+                      states.ctypes.data, forces.ctypes.data,
+                      slopes.ctypes.data if wanted else None, codes.ctypes.data)
+    bad = failed(status, codes, "state")
     forces[bad] = np.nan
-    n_state = slopes.shape[1]
-    wanted = len(slopes) == n
     slopes = slopes.transpose(0, 2, 1)
     if wanted:
         slopes[bad] = np.nan

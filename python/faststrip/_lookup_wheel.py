@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 from dataclasses import dataclass
 from typing import Any, Tuple, Union
@@ -11,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import flag, refused
-from ._library import FIRST_ERROR, FaststripError, library, word_of
-from ._lookup import N_FORCES, LookedUp, looked_up, opened, order_number, stacked, three
+from ._library import library
+from ._lookup import LookedUp, failed, looked_up, opened, order_number, stacked, three
 from ._record import Record
 
 Array = npt.NDArray[np.float64]
@@ -78,20 +77,13 @@ class WheelLookup:
     """
 
     def __init__(self, table: Union[str, os.PathLike[str], bytes]) -> None:
-        self._handle = opened(table)
-        numbers = (ctypes.c_double * N_ABOUT)()
-        status = library.faststrip_lookup_wheel_about(self._handle, numbers)
-        if status >= FIRST_ERROR:
-            raise FaststripError(status, word_of(status), "a table of ellipses: take Lookup")
+        self._table, numbers = opened(table, library.faststrip_lookup_wheel_about, N_ABOUT,
+                                      "a table of ellipses: take Lookup")
         self.nu, self.g, self.promised = numbers[:3]
         self.tested = int(numbers[3]), int(numbers[4])
         self.slots = int(numbers[5])
         self.y, self.yaw, self.load = (tuple(numbers[k:k + 2]) for k in (6, 8, 10))
         self.errors = np.array(numbers[12:]).reshape(2, 2, 3, 4)
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None):
-            library.faststrip_lookup_free(ctypes.byref(self._handle))
 
     def contacts(self, y: npt.ArrayLike, yaw: npt.ArrayLike, load: npt.ArrayLike, *,
                  order: str = "linear", slopes: bool = False) -> WheelContacts:
@@ -127,11 +119,9 @@ class WheelLookup:
         by_place = np.zeros((n if flag("slopes", slopes) else 0, 3, self.slots, len(CONTACT)))
         codes = np.zeros(n, dtype=np.int32)
         status = library.faststrip_lookup_wheel_contacts(
-            self._handle, number, n, places.ctypes.data, found.ctypes.data,
+            self._table.handle, number, n, places.ctypes.data, found.ctypes.data,
             by_place.ctypes.data if slopes else None, codes.ctypes.data)
-        bad = codes >= FIRST_ERROR
-        if n and bad.all() or status >= FIRST_ERROR and not bad.any():
-            raise FaststripError(status, word_of(status), f"no place of {n} is in the table")
+        bad = failed(status, codes, "place")
         found[bad] = np.nan
         by_place = by_place.transpose(0, 2, 3, 1)
         if slopes:
@@ -171,18 +161,11 @@ class WheelLookup:
             If all fail.
         """
         rows, shape = stacked(("slot", *STATE), (slot, y, yaw, load, mu, *three(creepage)))
-        number = order_number(order)
         whole = np.abs(rows[:, 0]) < MOST_SLOT
         whole[whole] = rows[whole, 0] % 1 == 0
         if not whole.all():
             raise refused("slot", "whole numbers", float(rows[~whole, 0][0]))
         slots = np.ascontiguousarray(rows[:, 0], dtype=np.int32)
         states = np.ascontiguousarray(rows[:, 1:])
-        n = len(states)
-        forces = np.zeros((n, N_FORCES))
-        slopes = np.zeros((n if flag("jacobian", jacobian) else 0, len(STATE), N_FORCES))
-        codes = np.zeros(n, dtype=np.int32)
-        status = library.faststrip_lookup_wheel_forces(
-            self._handle, number, n, slots.ctypes.data, states.ctypes.data, forces.ctypes.data,
-            slopes.ctypes.data if jacobian else None, codes.ctypes.data)
-        return looked_up(status, forces, slopes, codes, shape)
+        return looked_up(library.faststrip_lookup_wheel_forces, self._table, order, jacobian, shape,
+                         states, slots)

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import array, flag, refused, whole
-from ._catalogue import NEEDS, Case, Figures
+from ._catalogue import QUANTITIES, Case, Figures
 from ._contact import (
     CREEPAGE_NAMES,
     GAP_POINTS,
@@ -25,17 +25,10 @@ from ._contact import (
     want,
 )
 from ._interrupt import interruptible
-from ._library import (
-    BAD_ARGUMENT,
-    FIRST_ERROR,
-    TEXT,
-    FaststripError,
-    library,
-    word_of,
-)
+from ._library import FIRST_ERROR, TEXT, FaststripError, bad_argument, library, word_of
 from ._profile import Gap
 from ._record import Shown, described
-from ._tables import dataset, extra, frame
+from ._tables import dataset, dims_of, extra, frame
 from ._wear import CONSTANT, Friction, take_friction
 
 Array = npt.NDArray[np.float64]
@@ -168,12 +161,8 @@ class ManyResult(Shown):
         xarray.Dataset
             The arrays, with ``units`` and ``long_name``.
         """
-        n = len(self.shape)
-        if dims is None:
-            dims = ["contact"] if n == 1 else [f"contact_{k}" for k in range(n)]
-        elif isinstance(dims, str) or len(dims) != n:
-            raise refused("dims", f"{n} names", dims)
-        made = dataset({"word": self.word, **self._columns()}, dims, coords,
+        made = dataset({"word": self.word, **self._columns()},
+                       dims_of(dims, len(self.shape), "contact"), coords,
                        {"first_error": self.first_error} if self.first_error else None)
         statuses = np.unique(self.status)
         made["status"].attrs.update(
@@ -203,14 +192,14 @@ class _Gaps:
         n = _points(arrays[0])
         for name, one in zip(names, arrays):
             if one.ndim and one.shape[-1] != n:
-                raise _bad(f"{name} must be as long as y along its last axis, {n}, or one number, "
-                           f"got shape {one.shape}")
+                raise bad_argument(f"{name} must be as long as y along its last axis, {n}, or one "
+                                   f"number, got shape {one.shape}")
         try:
             self.shape = np.broadcast_shapes(*(one.shape[:-1] for one in arrays))
         except ValueError:
-            raise _bad("the gaps must broadcast but for their last axis, got "
-                       + ", ".join(f"{name} {one.shape}"
-                                   for name, one in zip(names, arrays))) from None
+            raise bad_argument("the gaps must broadcast but for their last axis, got "
+                               + ", ".join(f"{name} {one.shape}"
+                                           for name, one in zip(names, arrays))) from None
         table = np.zeros(self.shape, dtype=_GAP)
         table["n"] = n
         for name, one in zip(names, arrays):
@@ -241,22 +230,18 @@ class _Gaps:
                 if one.ndim == 0:
                     one = np.full(n, one[()])
                 if one.shape != (n,):
-                    raise _bad(f"{name} must be as long as y, {n}, or one number, "
-                               f"got shape {one.shape}")
+                    raise bad_argument(f"{name} must be as long as y, {n}, or one number, "
+                                       f"got shape {one.shape}")
                 self.kept.append(one)
                 self.table[key][i] = one.ctypes.data
 
 
-def _bad(message: str) -> FaststripError:
-    return FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), message)
-
-
 def _points(y: Array, name: str = "y") -> int:
     if y.ndim == 0:
-        raise _bad(f"{name} must be an array, got one number")
+        raise bad_argument(f"{name} must be an array, got one number")
     n = y.shape[-1]
     if n > GAP_POINTS[1]:
-        raise _bad(f"{name} must have at most {GAP_POINTS[1]} points, got {n}")
+        raise bad_argument(f"{name} must have at most {GAP_POINTS[1]} points, got {n}")
     return n
 
 
@@ -353,8 +338,8 @@ estimate, resolution_limit, force_limit, target, tolerance, budget_us
     case = new_case(normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, estimate,
                     resolution_limit, force_limit)
     if (load is None) == (penetration is None):
-        raise _bad("one of load and penetration must be given, got "
-                   + ("none" if load is None else "both"))
+        raise bad_argument("one of load and penetration must be given, got "
+                           + ("none" if load is None else "both"))
     case.by_load = load is not None
     take_material(case, material)
     take_friction(case, friction)
@@ -372,7 +357,7 @@ estimate, resolution_limit, force_limit, target, tolerance, budget_us
         shape = np.broadcast_shapes(table.shape, *(value.shape for value in values))
     except ValueError:
         shapes = [(name, value.shape) for name, value in zip(told, values) if value.ndim]
-        raise _bad("shapes must broadcast, got " + ", ".join(
+        raise bad_argument("shapes must broadcast, got " + ", ".join(
             f"{name} {shape}" for name, shape in [("gaps", table.shape), *shapes]
             if shape)) from None
     varying = {}
@@ -456,7 +441,7 @@ class _Found:
             column[here] = figures[name]
             if column.dtype != np.float64:
                 continue
-            nothing = unknown.get(NEEDS.get(name, ""), failed)
+            nothing = unknown.get(QUANTITIES[name][2], failed)
             if nothing.any():
                 column[here][nothing] = np.nan
         if words and self.first[0] < 0:

@@ -7,13 +7,15 @@ import dataclasses
 import math
 import os
 import pathlib
-from typing import Any, ClassVar, Dict, Optional, Tuple, TypeVar, Union
+from ctypes import c_double, c_int
+from typing import Any, Callable, ClassVar, Dict, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._arguments import above_zero, flag, from_zero, number, numbers, refused, several, whole
-from ._library import FIRST_ERROR, TEXT, TOO_SMALL, FaststripError, check, library, word_of
+from ._catalogue import members
+from ._library import TOO_SMALL, FaststripError, check, library, told
 from ._record import Shown, Table
 
 Array = npt.NDArray[np.float64]
@@ -43,22 +45,19 @@ class Reading(ctypes.Structure):
 
     _fields_ = [
         ("size", ctypes.c_size_t),
-        *((name, ctypes.c_int) for name in (
-            "kind", "section", "side", "y_sense", "z_sense", "any_count", "ignore_smoothing",
-            "has_tape_circle", "keeps", "drops_folds", "mirrors", "rounds_kinks")),
-        ("unit", ctypes.c_double), ("tape_circle", ctypes.c_double),
-        ("keep", ctypes.c_double * 2), ("drop_double", ctypes.c_double),
-        ("shift", ctypes.c_double * 2),
-        *((name, ctypes.c_double) for name in ("turn", "smooth_wavelength", "smooth_noise",
-                                               "resample", "kink_angle")),
+        *members(c_int, "kind", "section", "side", "y_sense", "z_sense", "any_count",
+                 "ignore_smoothing", "has_tape_circle", "keeps", "drops_folds", "mirrors",
+                 "rounds_kinks"),
+        *members(c_double, "unit", "tape_circle"), ("keep", c_double * 2),
+        ("drop_double", c_double), ("shift", c_double * 2),
+        *members(c_double, "turn", "smooth_wavelength", "smooth_noise", "resample", "kink_angle"),
     ]
 
 
 class About(ctypes.Structure):
     """``faststrip_profile_about`` of the header."""
 
-    _fields_ = [("kind", ctypes.c_int), ("has_flange", ctypes.c_int),
-                *((name, ctypes.c_double) for name in ("sd", "sh", "qr")),
+    _fields_ = [*members(c_int, "kind", "has_flange"), *members(c_double, "sd", "sh", "qr"),
                 ("format", ctypes.c_char * 16)]
 
 
@@ -263,22 +262,13 @@ class Profile(Shown):
         name = os.fsencode(path)
         if b"\0" in name:
             raise refused("path", "the name of a file", path)
-        n, capacity, text = ctypes.c_int(), FIRST_CAPACITY, ctypes.create_string_buffer(TEXT)
         about = About()
-        while True:
-            y, z = np.zeros((2, capacity))
-            status = library.faststrip_read_profile(
-                name, ctypes.byref(reading), capacity, ctypes.byref(n), y.ctypes.data,
-                z.ctypes.data, ctypes.byref(about), text, TEXT)
-            if status != TOO_SMALL or n.value <= capacity:
-                break
-            capacity = n.value
-        words = text.value.decode("utf-8", "replace")
-        if status >= FIRST_ERROR:
-            raise FaststripError(status, word_of(status), words)
+        (y, z), words = grown(2, lambda *room: told(
+            library.faststrip_read_profile, name, ctypes.byref(reading), *room,
+            ctypes.byref(about)))
         flange = (about.sd, about.sh, about.qr) if about.has_flange else (None, None, None)
-        return cls(y[:n.value].copy(), z[:n.value].copy(), KINDS[about.kind], os.fsdecode(name),
-                   about.format.decode("ascii"), words, *flange)
+        return cls(y, z, KINDS[about.kind], os.fsdecode(name), about.format.decode("ascii"), words,
+                   *flange)
 
     def plot(self, axes: Any = None, **style: Any) -> Any:
         """Draw the points, z down.
@@ -343,9 +333,19 @@ def spacing_of(back_spacing: Optional[float]) -> float:
     return 0.0 if back_spacing is None else above_zero("back_spacing", back_spacing)
 
 
-def _raise(status: int, text: Any) -> None:
-    if status >= FIRST_ERROR:
-        raise FaststripError(status, word_of(status), text.value.decode("ascii", "replace"))
+def grown(rows: int, call: Callable[..., Any]) -> Tuple[Array, Any]:
+    """Rows of as many numbers as a call has, and what it gives; it takes capacity, their number and
+    the rows, and raises what is an error."""
+    n, capacity = c_int(), FIRST_CAPACITY
+    while True:
+        arrays = np.zeros((rows, capacity))
+        try:
+            answer = call(capacity, ctypes.byref(n), *(row.ctypes.data for row in arrays))
+            return arrays[:, :n.value].copy(), answer
+        except FaststripError as problem:
+            if problem.status != TOO_SMALL or n.value <= capacity:
+                raise
+            capacity = n.value
 
 
 def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift: float = 0.0,
@@ -395,18 +395,10 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
          "step", "height"),
         (spacing_of(back_spacing), tread_line, radius, gauge, gauge_depth,
          inclination_of(inclination, cant), shift, step, height)))
-    n, capacity, text = ctypes.c_int(), FIRST_CAPACITY, ctypes.create_string_buffer(TEXT)
     contact = np.zeros(6)
-    while True:
-        arrays = np.zeros((4, capacity))
-        status = library.faststrip_pair_gap(
-            *map(ctypes.byref, sources), setup.ctypes.data, capacity, ctypes.byref(n),
-            *(row.ctypes.data for row in arrays), contact.ctypes.data, text, TEXT)
-        if status != TOO_SMALL or n.value <= capacity:
-            break
-        capacity = n.value
-    _raise(status, text)
-    y, h, inv2r, turned = arrays[:, :n.value].copy()
+    (y, h, inv2r, turned), _ = grown(4, lambda *room: told(
+        library.faststrip_pair_gap, *map(ctypes.byref, sources), setup.ctypes.data, *room,
+        contact.ctypes.data))
     angle, rolling_radius, y_wheel, y_rail, *clipped = contact.tolist()
     return Gap(y, h, inv2r, turned, angle, rolling_radius, y_wheel, y_rail,
                (int(clipped[0]), int(clipped[1])))
@@ -442,9 +434,6 @@ def draw_profile(profile: Union[str, Profile], kind: str, *, inclination: Option
         raise refused("kind", "wheel or rail", kind)
     source = points_of("profile", profile, kind)
     arrays = np.zeros((2, whole("n", n, 2, MOST_POINTS)))
-    text = ctypes.create_string_buffer(TEXT)
-    status = library.faststrip_draw_profile(
-        ctypes.byref(source), kind == "rail", inclination_of(inclination, cant), n,
-        *(row.ctypes.data for row in arrays), text, TEXT)
-    _raise(status, text)
+    told(library.faststrip_draw_profile, ctypes.byref(source), kind == "rail",
+         inclination_of(inclination, cant), n, *(row.ctypes.data for row in arrays))
     return arrays[0], arrays[1]

@@ -58,7 +58,7 @@ def described(cls: type) -> Any:
     for one in dataclasses.fields(cls):
         if f"    {one.name} : " in text or one.name not in QUANTITIES:
             continue
-        unit, meaning = QUANTITIES[one.name]
+        unit, meaning, _ = QUANTITIES[one.name]
         unit = PLAIN.get(unit, unit)
         rows.append(f"    {one.name} : {KINDS[str(one.type)]}\n"
                     f"        {meaning[0].upper()}{meaning[1:]}{', ' if unit else ''}{unit}.\n")

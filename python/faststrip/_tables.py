@@ -10,6 +10,7 @@ from typing import Any, Mapping, Optional, Sequence
 
 import numpy as np
 
+from ._arguments import refused
 from ._catalogue import QUANTITIES
 
 
@@ -34,6 +35,15 @@ def frame(columns: Mapping[str, Any], index: Any = None) -> Any:
     return made
 
 
+def dims_of(dims: Optional[Sequence[str]], n: int, what: str) -> Sequence[str]:
+    """Names of n dimensions: those wanted, or some after what stands there."""
+    if dims is None:
+        return [what] if n == 1 else [f"{what}_{k}" for k in range(n)]
+    if isinstance(dims, str) or len(dims) != n:
+        raise refused("dims", f"{n} names", dims)
+    return dims
+
+
 def dataset(columns: Mapping[str, Any], dims: Sequence[str],
             coords: Optional[Mapping[str, Any]] = None,
             attributes: Optional[Mapping[str, Any]] = None) -> Any:
@@ -43,6 +53,6 @@ def dataset(columns: Mapping[str, Any], dims: Sequence[str],
     for name, values in columns.items():
         about = {}
         if name in QUANTITIES:
-            about["units"], about["long_name"] = QUANTITIES[name]
+            about["units"], about["long_name"], _ = QUANTITIES[name]
         variables[name] = (tuple(dims), np.asarray(values), about)
     return xarray.Dataset(variables, coords=coords, attrs=dict(attributes or {}))

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import _thread
 import ctypes
 import operator
-from ctypes import c_double, c_int, c_size_t, c_void_p
+from ctypes import c_double, c_int, c_size_t
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar, Dict, Optional, Tuple, Union
 
@@ -13,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arguments import above_zero, flag, number, numbers, several, whole
-from ._catalogue import Row
+from ._catalogue import Row, members
 from ._contact import (
     MOST_STRIPS,
     Material,
@@ -25,24 +24,18 @@ from ._contact import (
     want,
 )
 from ._library import (
-    BAD_ARGUMENT,
     FIRST_ERROR,
-    TEXT,
-    TOO_SMALL,
     FaststripError,
+    Handle,
+    bad_argument,
     library,
     limitation_words,
+    said,
+    told,
     warn_of_doubts,
     word_of,
 )
-from ._profile import (
-    FIRST_CAPACITY,
-    Points,
-    Profile,
-    inclination_of,
-    points_of,
-    spacing_of,
-)
+from ._profile import Points, Profile, grown, inclination_of, points_of, spacing_of
 from ._record import Record, Table, described
 from ._results import Elements, Strips
 from ._wear import CONSTANT, Friction, StripWear, Wear, WearLaw, WearQuestion, take_friction
@@ -61,34 +54,32 @@ BY_POSITION, BY_LOADS, BY_AXLE_LOAD = 0, 1, 2
 class Setup(ctypes.Structure):
     """``faststrip_wheelset_setup`` of the header."""
 
-    _fields_ = [("size", c_size_t), *((name, c_double) for name in (
-        "radius_right", "radius_left", "back_spacing", "tread_line", "gauge", "gauge_depth",
-        "rail_distance", "inclination"))]
+    _fields_ = [("size", c_size_t), *members(
+        c_double, "radius_right", "radius_left", "back_spacing", "tread_line", "gauge",
+        "gauge_depth", "rail_distance", "inclination")]
 
 
 class Rail(ctypes.Structure):
     """``faststrip_rail_state`` of the header."""
 
-    _fields_ = [(name, c_double) for name in ("y", "z", "roll", "y_rate", "z_rate", "roll_rate")]
+    _fields_ = members(c_double, "y", "z", "roll", "y_rate", "z_rate", "roll_rate")
 
 
 class State(ctypes.Structure):
     """``faststrip_wheelset_state`` of the header."""
 
-    _fields_ = [*((name, c_double) for name in (
-        "y", "z", "roll", "yaw", "speed", "y_rate", "z_rate", "roll_rate", "yaw_rate",
-        "pitch_rate", "curvature")), ("right_rail", Rail), ("left_rail", Rail)]
+    _fields_ = [*members(c_double, "y", "z", "roll", "yaw", "speed", "y_rate", "z_rate",
+                         "roll_rate", "yaw_rate", "pitch_rate", "curvature"),
+                *members(Rail, "right_rail", "left_rail")]
 
 
 class Demand(ctypes.Structure):
     """``faststrip_wheelset_demand`` of the header."""
 
-    _fields_ = [*((name, c_int) for name in ("kind", "wheels", "roll_is_free", "warm_start")),
-                *((name, c_double) for name in ("load_right", "load_left", "axle_load",
-                                                "roll_moment"))]
+    _fields_ = [*members(c_int, "kind", "wheels", "roll_is_free", "warm_start"),
+                *members(c_double, "load_right", "load_left", "axle_load", "roll_moment")]
 
 
-THREE = c_double * 3
 FIGURES = ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
            "friction_power", "stick_fraction")
 
@@ -96,9 +87,9 @@ FIGURES = ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx
 class Totals(ctypes.Structure):
     """``faststrip_wheelset_result`` of the header."""
 
-    _fields_ = [*((name, c_int * 2) for name in ("status", "n_contacts", "n_solutions")),
+    _fields_ = [*members(c_int * 2, "status", "n_contacts", "n_solutions"),
                 ("z", c_double * 2), ("roll", c_double),
-                *((name, THREE * 2) for name in ("force", "force_wheelset", "moment"))]
+                *members(c_double * 3 * 2, "force", "force_wheelset", "moment")]
 
 
 @dataclass(frozen=True)
@@ -131,7 +122,7 @@ IN_PLACE = RailState()
 def rail_of(name: str, rail: Any) -> Rail:
     """A rail's state as the library takes it."""
     if not isinstance(rail, RailState):
-        raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), f"{name} must be a RailState")
+        raise bad_argument(f"{name} must be a RailState")
     names = [field.name for field in fields(RailState)]
     return Rail(*numbers([f"{name}.{one}" for one in names],
                           [getattr(rail, one) for one in names]))
@@ -302,18 +293,6 @@ def _counted(contact: Any) -> int:
     return whole("contact", contact, 0, MOST_CONTACTS)
 
 
-class _Handle:
-    """A wheelset of the library, freed with the last that holds it: so not during a call."""
-
-    def __init__(self) -> None:
-        self.handle = c_void_p()
-        self.in_use = _thread.allocate_lock()
-
-    def __del__(self, free: Any = library.faststrip_wheelset_free,
-                byref: Any = ctypes.byref) -> None:
-        free(byref(self.handle))
-
-
 class Wheelset:
     """A wheelset on its track: profiles, dimensions, methods, the last solution.
 
@@ -369,7 +348,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
                  with_elements: bool = False, estimate: bool = True, resolution_limit: float = 0.1,
                  force_limit: float = 0.1, target: Optional[str] = None,
                  tolerance: Optional[float] = None, budget_us: Optional[float] = None) -> None:
-        self._handle: Optional[_Handle] = None
+        self._handle: Optional[Handle] = None
         self._n_contacts = 0
         case = new_case(normal, tangential, whole("strips_per_patch", strips_per_patch, 1,
                                                   MOST_STRIPS), points_per_strip, fastsim_grid,
@@ -382,12 +361,9 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
                                         back_spacing, tread_line, gauge, gauge_depth,
                                         rail_distance, inclination, cant)
-        handle, text = _Handle(), ctypes.create_string_buffer(TEXT)
-        status = library.faststrip_wheelset_new(
-            ctypes.byref(setup), wheels, rails, ctypes.byref(case), ctypes.byref(handle.handle),
-            text, TEXT)
-        if status >= FIRST_ERROR:
-            raise FaststripError(status, word_of(status), text.value.decode("ascii", "replace"))
+        handle = Handle(library.faststrip_wheelset_free)
+        told(library.faststrip_wheelset_new, ctypes.byref(setup), wheels, rails,
+             ctypes.byref(case), ctypes.byref(handle.handle))
         self._handle = handle
 
     def close(self) -> None:
@@ -460,8 +436,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
             Where there is no result.
         """
         if sum(value is not None for value in (z, load, axle_load)) != 1:
-            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 "one of z, load and axle_load must be given")
+            raise bad_argument("one of z, load and axle_load must be given")
         demand = Demand(wheels=number_of(WHEELS, wheels, "wheels"),
                         warm_start=flag("warm_start", warm_start),
                         roll_moment=number("roll_moment", roll_moment))
@@ -581,33 +556,21 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         y, h, inv2r, inclination : ndarray of float, shape (n,)
             mm, mm, 1/mm, rad.
         """
-        n, capacity = c_int(), FIRST_CAPACITY
-        while True:
-            arrays = np.zeros((4, capacity))
-            try:
-                self._call(library.faststrip_wheelset_get_gap, _counted(contact), capacity,
-                           ctypes.byref(n), *(row.ctypes.data for row in arrays))
-            except FaststripError as problem:
-                if problem.status != TOO_SMALL or n.value <= capacity:
-                    raise
-                capacity = n.value
-                continue
-            y, h, inv2r, inclination = arrays[:, :n.value].copy()
-            return y, h, inv2r, inclination
+        (y, h, inv2r, inclination), _ = grown(4, lambda *room: self._call(
+            library.faststrip_wheelset_get_gap, _counted(contact), *room))
+        return y, h, inv2r, inclination
 
     def _call(self, function: Any, *arguments: Any) -> int:
         handle = self._handle
         if handle is None:
-            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), "the wheelset is closed")
+            raise bad_argument("the wheelset is closed")
         if not handle.in_use.acquire(False):
-            raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                                 "the wheelset is in use by another thread")
+            raise bad_argument("the wheelset is in use by another thread")
         try:
             status = function(handle.handle, *arguments)
             if status >= FIRST_ERROR:
-                text = ctypes.create_string_buffer(TEXT)
-                library.faststrip_wheelset_last_message(handle.handle, text, TEXT)
-                raise FaststripError(status, word_of(status), text.value.decode("ascii"))
+                words = said(library.faststrip_wheelset_last_message, handle.handle)[1]
+                raise FaststripError(status, word_of(status), words)
             return status
         finally:
             handle.in_use.release()

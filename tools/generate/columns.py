@@ -13,6 +13,7 @@ code is 1 if something would be.
 
 import argparse
 import csv
+import itertools
 import pathlib
 import re
 import subprocess
@@ -109,25 +110,37 @@ def of_python(rows, structs):
     lines = ['"""Units, meanings and structs of the library, written by columns.py."""', "",
              "from __future__ import annotations", "", "import ctypes",
              "from ctypes import c_double, c_int, c_size_t",
-             "from typing import Dict, Tuple", "",
-             "# Unit, as UDUNITS writes it, and what it is.",
-             "QUANTITIES: Dict[str, Tuple[str, str]] = {"]
+             "from typing import Any, Dict, List, Tuple", "",
+             "# Unit, as UDUNITS writes it, what it is, and what must be there for it to be known.",
+             "QUANTITIES: Dict[str, Tuple[str, str, str]] = {"]
     found = {row["member"]: row for row in rows if row["member"]}
-    for name, row in found.items():
-        lines.append(f'    "{name}": ("{row["unit"] or 1}", "{row["what"]}"),')
-    lines += ["}", "", "# As people write units.", "PLAIN: Dict[str, str] = {"]
-    lines += [f'    "{unit}": "{plain}",' for unit, plain in PLAIN.items()]
-    lines += ["}", "", "# What must be there for a figure to be known.",
-              "NEEDS: Dict[str, str] = {"]
-    lines += [f'    "{name}": "{row["needs"]}",' for name, row in found.items() if row["needs"]]
-    lines.append("}")
+    lines += [f'    "{name}": ("{row["unit"] or 1}", "{row["what"]}", "{row["needs"]}"),'
+              for name, row in found.items()]
+    lines += ["}", "", "# As people write units."]
+    lines += filled("PLAIN: Dict[str, str] = {", [f'"{unit}": "{plain}"'
+                                                  for unit, plain in PLAIN.items()], "}")
+    lines += ["", "", "def members(kind: Any, *names: str) -> List[Tuple[str, Any]]:",
+              '    """Members of a struct that are of one kind."""',
+              "    return [(name, kind) for name in names]"]
     for name, (words, members) in structs.items():
         lines += ["", "", f"class {name}(ctypes.Structure):",
                   f'    """``{words}`` of the header."""', "", "    _fields_ = ["]
-        for kind, member, length in members:
-            lines.append(f'        ("{member}", {kind}{f" * {length}" if length > 1 else ""}),')
+        kinds = [f"{kind} * {length}" if length > 1 else kind for kind, _, length in members]
+        for kind, own in itertools.groupby(zip(kinds, members), key=lambda pair: pair[0]):
+            lines += filled("        *members(",
+                            [kind, *(f'"{member}"' for _, (_, member, _) in own)], "),")
         lines.append("    ]")
     return "\n".join(lines) + "\n"
+
+
+def filled(begin, parts, end):
+    """Parts one after the other in lines that are filled, each beginning below the first."""
+    lines = [begin]
+    for part in (*(f"{part}, " for part in parts[:-1]), parts[-1] + end):
+        if len((lines[-1] + part).rstrip()) > WIDTH:
+            lines.append(" " * len(begin))
+        lines[-1] += part
+    return [line.rstrip() for line in lines]
 
 
 def of_class(rows, names, kinds):

@@ -11,7 +11,7 @@ import shutil
 import subprocess
 import tempfile
 import zipfile
-from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -58,8 +58,9 @@ def _program() -> str:
                           "tried " + (", ".join(tried) or "PATH"))
 
 
-def _data_lines(lines: Sequence[str]) -> List[str]:
-    return [line for line in lines if not line.startswith("#")]
+def _rows(path: pathlib.Path) -> List[Dict[str, str]]:
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
 def quoted(text: str) -> str:
@@ -200,11 +201,9 @@ def result_of(row: Dict[str, str]) -> Result:
 
 def read_reference(folder: pathlib.Path) -> Reference:
     """What the program has written."""
-    lines = _data_lines((folder / "norm_result.csv").read_text(encoding="utf-8").splitlines())
-    figures = next(csv.DictReader(lines))
+    figures = _rows(folder / "norm_result.csv")[0]
     seconds = 1e-6 * (float(figures["normal_us"]) + float(figures["tangential_us"]))
-    lines = _data_lines((folder / "norm_fields.csv").read_text(encoding="utf-8").splitlines())
-    rows = list(csv.DictReader(lines))
+    rows = _rows(folder / "norm_fields.csv")
     x, y, p = (np.array([float(row[name]) for row in rows])
                for name in ("x_mm", "y_mm", "pn_MPa"))
     places, row = np.unique(y, return_inverse=True)

@@ -28,7 +28,7 @@ from . import fields
 from .case import CONTROL
 from .look import AXIS, BODY, FONT, GRID, HERTZ, LOOKS, NORM, SLIP, SMALL, STRIPS
 from .solving import Curve, Outcome
-from .wire import Out
+from .wire import Direct
 
 Array = npt.NDArray[np.float64]
 WIDTH, HEIGHT = 272, 182  # of a frame, in pixels
@@ -58,7 +58,7 @@ def first_above(values: Sequence[float], value: float) -> float:
 class Picture:
     """A figure with its sources; ``key`` is what it was last drawn of."""
 
-    def __init__(self, out: Out, title: str, x_label: str, y_label: str, *,
+    def __init__(self, out: Direct, title: str, x_label: str, y_label: str, *,
                  width: int = WIDTH, height: int = HEIGHT, **options: Any) -> None:
         self.x_range = options.pop("x_range", None) or Range1d(-10.0, 10.0)
         self.y_range = options.pop("y_range", None) or Range1d(-7.0, 7.0)
@@ -102,6 +102,12 @@ class Picture:
         source = self.sources[name]
         self.out.put(source, {column: [] for column in source.data} if data is None else data)
 
+    def clear(self, text: str) -> None:
+        """Nothing but a line."""
+        for name in self.sources:
+            self.put(name, None)
+        self.tell(text)
+
     def tell(self, text: str) -> None:
         """The line in the picture."""
         self.out.set(self.note, text=text)
@@ -125,7 +131,7 @@ class Profiles(Picture):
 
     REACH = 44.0  # mm to both sides
 
-    def __init__(self, out: Out) -> None:
+    def __init__(self, out: Direct) -> None:
         reach = self.REACH
         height = 2.0 * reach * HEIGHT / WIDTH
         super().__init__(out, "Profiles", LATERAL, "z down, mm",
@@ -146,9 +152,7 @@ class Profiles(Picture):
     def show(self, outcome: Outcome) -> None:
         geometry = outcome.geometry
         if geometry is None or outcome.profiles[0] is None:
-            for name in self.sources:
-                self.put(name, None)
-            self.tell("")
+            self.clear("")
             return
         (y_wheel, z_wheel), (y_rail, z_rail) = outcome.profiles
         place = geometry.place
@@ -178,7 +182,7 @@ class Profiles(Picture):
 class Patch(Picture):
     """The strips with their pressure, the Hertz ellipse, NORM's patch."""
 
-    def __init__(self, out: Out) -> None:
+    def __init__(self, out: Direct) -> None:
         super().__init__(out, "Contact patch: strips and their pressure", LATERAL, ROLLING)
         self.high = 1000.0
         self.mapper = LinearColorMapper(palette=viridis(64)[::-1], low=0.0, high=1000.0)
@@ -196,8 +200,7 @@ class Patch(Picture):
             ticker=self.ticks, background_fill_alpha=0.0))
         self.hover(drawn, [("y", "@y{0.00} mm"), ("half-length", "@top{0.00} mm"),
                            ("pressure", "@p0{0} MPa")])
-        self.figure.line("y", "x", source=self.source("ellipse", "y x"), line_color=HERTZ.colour,
-                         line_dash=HERTZ.dash, line_width=HERTZ.width)
+        self.figure.line("y", "x", source=self.source("ellipse", "y x"), **HERTZ.line)
         self.draw_norm("x")
 
     def show(self, outcome: Outcome) -> None:
@@ -266,14 +269,13 @@ def marked(across: Array, up: Array) -> List[int]:
 class Pressure(Picture):
     """Pressure across the patch, at x = 0."""
 
-    def __init__(self, out: Out, x_range: Range1d) -> None:
+    def __init__(self, out: Direct, x_range: Range1d) -> None:
         super().__init__(out, "Pressure at x = 0", LATERAL, "pressure, MPa",
                          x_range=x_range, y_range=Range1d(0.0, 1000.0))
         strips = self.figure.line("y", "p", source=self.source("strips", "y p"),
-                                  line_color=STRIPS.colour, line_width=STRIPS.width)
+                                  **STRIPS.line)
         self.hover(strips, [("y", "@y{0.00} mm"), ("pressure", "@p{0} MPa")])
-        self.figure.line("y", "p", source=self.source("hertz", "y p"), line_color=HERTZ.colour,
-                         line_dash=HERTZ.dash, line_width=HERTZ.width)
+        self.figure.line("y", "p", source=self.source("hertz", "y p"), **HERTZ.line)
         self.draw_norm("p")
 
     def show(self, outcome: Outcome) -> None:
@@ -298,7 +300,7 @@ class Pressure(Picture):
 class Tractions(Picture):
     """Tractions of one method as arrows, with adhesion, slip and the border between."""
 
-    def __init__(self, out: Out, method: str, x_range: Range1d, y_range: Range1d) -> None:
+    def __init__(self, out: Direct, method: str, x_range: Range1d, y_range: Range1d) -> None:
         self.method = method
         look = LOOKS[method]
         super().__init__(out, f"Tractions on the rail, {look.label}", LATERAL, ROLLING,
@@ -320,9 +322,7 @@ class Tractions(Picture):
     def show(self, outcome: Outcome) -> None:
         answer = outcome.answers.get(self.method)
         if answer is None or answer.elements is None or answer.result is None:
-            for name in self.sources:
-                self.put(name, None)
-            self.tell("no result")
+            self.clear("no result")
             return
         runs = fields.runs(answer.elements)
         self.put("border", fields.borders(runs))
@@ -340,7 +340,7 @@ class Tractions(Picture):
 class Creep(Picture):
     """The force over one creepage, and where the case is on it."""
 
-    def __init__(self, out: Out) -> None:
+    def __init__(self, out: Direct) -> None:
         super().__init__(out, "Creep curve", "", "",
                          x_range=Range1d(-1.0, 1.0),
                          y_range=Range1d(-1.1, 1.1))
@@ -349,7 +349,7 @@ class Creep(Picture):
             look = LOOKS[name]
             line = self.figure.line(
                 "creepage", "force", source=self.source(name, "creepage force"),
-                line_color=look.colour, line_dash=look.dash, line_width=look.width)
+                **look.line)
             items.append((look.label, [line]))
         dots = self.figure.scatter([0.0], [math.nan], marker="circle", size=5, fill_color="white",
                                    line_color=NORM.colour, line_width=1.4)
@@ -372,8 +372,7 @@ class Creep(Picture):
         value = getattr(outcome.case, outcome.axis) / control.scale
         self.out.set(self.here, location=value)
         if outcome.curve is None:
-            for name in self.sources:
-                self.put(name, None)
+            self.clear("")
             return
         half = outcome.curve.creepage[-1] / control.scale
         self.set_range(self.x_range, -half, half)
@@ -405,7 +404,7 @@ def forces_of(curve: Curve, force: str) -> Dict[str, Any]:
 class Times(Picture):
     """What each method cost."""
 
-    def __init__(self, out: Out) -> None:
+    def __init__(self, out: Direct) -> None:
         rows = [label for _, label, _ in TIMES][::-1]
         super().__init__(out, "What it cost on this machine", "time, ms", "", width=230,
                          height=104, x_range=Range1d(SHORTEST, LONGEST), y_range=rows,
@@ -439,7 +438,7 @@ def time_text(ms: float) -> str:
 class Pictures:
     """All pictures of a page."""
 
-    def __init__(self, out: Out) -> None:
+    def __init__(self, out: Direct) -> None:
         self.profiles = Profiles(out)
         self.patch = Patch(out)
         shared = self.patch.x_range, self.patch.y_range

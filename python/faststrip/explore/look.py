@@ -3,7 +3,7 @@ colour-blind."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, Dict, NamedTuple
 
 from .._style import METHOD
 
@@ -15,6 +15,11 @@ class Look(NamedTuple):
     colour: str
     dash: str
     width: float
+
+    @property
+    def line(self) -> Dict[str, Any]:
+        """What Bokeh's ``line`` takes of it."""
+        return {"line_color": self.colour, "line_dash": self.dash, "line_width": self.width}
 
 
 def _look(normal: str, tangential: str, dash: str) -> Look:

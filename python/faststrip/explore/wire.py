@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import base64
 import json
-from typing import Any, Dict, List, Optional, Protocol
+from typing import Any, Dict, List, Optional
 
 import bokeh
 import numpy as np
@@ -123,18 +123,9 @@ for (const [id, text] of html) {
 """
 
 
-class Out(Protocol):
-    """Where changes of pictures go."""
-
-    backend: str
-
-    def set(self, model: Model, **properties: Any) -> None: ...
-
-    def put(self, source: ColumnDataSource, data: Dict[str, Any]) -> None: ...
-
-
 class Direct:
-    """Changes that go straight to the models: of pictures that are drawn once, as SVG."""
+    """Where changes of pictures go: straight to the models, of pictures that are drawn once, as
+    SVG."""
 
     backend = "svg"
 
@@ -143,22 +134,6 @@ class Direct:
 
     def put(self, source: ColumnDataSource, data: Dict[str, Any]) -> None:
         source.data = data
-
-
-class Sender(Out, Protocol):
-    """What the page tells its changes to."""
-
-    text: Div
-    on_ready: Optional[CustomJS]
-
-    def write(self, place: Div, text: str) -> None: ...
-
-    def send(self) -> None: ...
-
-
-def sender() -> Sender:
-    """The fast way, where this version of Bokeh is known, or else Bokeh's own."""
-    return Wire() if bokeh.__version__.startswith(KNOWN) else Plain()
 
 
 class Plain(Direct):
@@ -183,16 +158,13 @@ class Plain(Direct):
         self.text.text = str(self._count)
 
 
-class Wire:
+class Wire(Plain):
     """Changes that are collected, and sent together."""
 
-    backend = "canvas"
-
     def __init__(self) -> None:
-        self.text = Div(text="", name="wire")
-        code = CustomJS(args={"wire": self.text}, code=HAND_ON)
-        self.text.js_on_change("text", code)
-        self.on_ready: Optional[CustomJS] = code
+        super().__init__()
+        self.on_ready = CustomJS(args={"wire": self.text}, code=HAND_ON)
+        self.text.js_on_change("text", self.on_ready)
         self._known: Dict[str, Dict[str, Any]] = {}
         self._clear()
 
@@ -240,3 +212,8 @@ class Wire:
              "numbers": base64.b64encode(numbers.tobytes()).decode("ascii")},
             separators=(",", ":"))
         self._clear()
+
+
+def sender() -> Plain:
+    """The fast way, where this version of Bokeh is known, or else Bokeh's own."""
+    return Wire() if bokeh.__version__.startswith(KNOWN) else Plain()
