@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Write the accuracy table: errors against full CONTACT and time per contact."""
 
-import os
 import sys
 
 import numpy as np
 
 from faststrip_plots import command, references
+from faststrip_plots.document import markdown_table, write_text
 from faststrip_plots.results import (
     QUANTITIES,
     compare,
@@ -15,7 +15,7 @@ from faststrip_plots.results import (
     read_sweep,
 )
 from faststrip_plots.style import method_look
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots.tables import read_table
 
 FAST_MODES = "reference/contact/s1002_uic60_fast_modes_B.csv"
 HEADER = (
@@ -30,30 +30,17 @@ PEER_ERRORS = (
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
-                        help="what `faststrip sweep` wrote")
-    parser.add_argument("--reference", default=references.REFERENCE, metavar="CSV",
-                        help="the same sweep by full CONTACT")
-    parser.add_argument("--fast-modes", default=FAST_MODES, metavar="CSV",
-                        help="the same sweep by CONTACT's fast modes")
-    parser.add_argument("--no-fast-modes", action="store_true", help="leave the second table out")
-    parser.add_argument("--mu", type=command.friction, default=0.3, metavar="MU",
-                        help="coefficient of friction")
-    parser.add_argument("-o", "--output", default="out/accuracy.md", metavar="MD",
-                        help="file to write; the same goes to stdout")
-    options = parser.parse_args(arguments)
+    options = command.options(
+        __doc__, arguments, {
+            **command.SWEEP, **references.SWEEP,
+            "fast-modes": (FAST_MODES, "the same sweep by CONTACT's fast modes")},
+        output=("out/accuracy.md", "MD", "file to write; the same goes to stdout"),
+        more={"no-fast-modes": dict(action="store_true", help="leave the second table out"),
+              **command.friction("coefficient of friction")})
     sweep = read_sweep(options.sweep)
     reference = read_reference(options.reference)
     text = report(sweep, reference, options)
-    try:
-        os.makedirs(os.path.dirname(os.path.abspath(options.output)), exist_ok=True)
-        with open(options.output, "w", encoding="utf-8") as stream:
-            stream.write(text)
-    except OSError as error:
-        raise InputError(
-            f"cannot write: {options.output} ({os.strerror(error.errno)})"
-        ) from None
+    write_text(options.output, text)
     print(text, end="")
 
 
@@ -70,7 +57,8 @@ def report(sweep, reference, options):
         " itself the area is 0.3 % larger, for elements count whole). Times:"
         " median microseconds of wall time"
         " per contact.",
-        table(HEADER, [method_row(sweep, m, reference, options.mu) for m in sweep.methods]),
+        markdown_table(HEADER, [method_row(sweep, method, reference, options.mu)
+                                for method in sweep.methods]),
     ]
     remarks = [
         f"- {method_look(*method.key).label}: {number} of {len(method.yw)} shifts {what} ({status})"
@@ -88,7 +76,7 @@ def report(sweep, reference, options):
             "## CONTACT's own fast modes on the same gaps",
             "Times: median microseconds of processor time of one evaluation with the penetration"
             " given; KPEC and ANALYN need several to find the penetration of a load.",
-            table(HEADER, fast_mode_rows(options.fast_modes, reference, options.mu)),
+            markdown_table(HEADER, fast_mode_rows(options.fast_modes, reference, options.mu)),
         ]
     return "\n\n".join(parts) + "\n"
 
@@ -142,20 +130,6 @@ def line(name, results, of, errors, times):
 def digits(value):
     """Two decimals below ten, one below a hundred, none above."""
     return f"{value:.2f}" if value < 9.995 else f"{value:.1f}" if value < 99.95 else f"{value:.0f}"
-
-
-def table(header, rows):
-    """A Markdown table whose columns line up as plain text too."""
-    widths = [max(len(row[k]) for row in [header, *rows]) for k in range(len(header))]
-
-    def form(cells):
-        rest = [cell.rjust(width) for cell, width in zip(cells[1:], widths[1:])]
-        return "| " + " | ".join([cells[0].ljust(widths[0])] + rest) + " |"
-
-    rule = "|" + "|".join(
-        "-" * (width + 2) if k == 0 else "-" * (width + 1) + ":" for k, width in enumerate(widths)
-    ) + "|"
-    return "\n".join([form(header), rule] + [form(row) for row in rows])
 
 
 if __name__ == "__main__":

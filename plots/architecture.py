@@ -11,7 +11,7 @@ import sys
 
 from matplotlib.patches import Rectangle
 
-from faststrip_plots import command, style
+from faststrip_plots import command, picture, style
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "architecture.md"
@@ -51,16 +51,12 @@ def room_of(module):
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("-o", "--output", default="out/architecture.png", metavar="PNG",
-                        help="picture to write")
-    options = parser.parse_args(arguments)
+    options = command.options(__doc__, arguments, {}, command.png("out/architecture.png"))
     way = steps()
     figure = style.new_figure(10.0, 6.6)
     axes = figure.subplots()
     axes.set_axis_off()
-    axes.set_xlim(0.0, 10.0)
-    axes.set_ylim(-0.3, len(ROOMS) + 0.7)
+    axes.set(xlim=(0.0, 10.0), ylim=(-0.3, len(ROOMS) + 0.7))
     middles = {}
     for k, room in enumerate(reversed(ROOMS)):
         height = k + 0.5
@@ -84,9 +80,8 @@ def main(arguments=None):
         for room in dict.fromkeys(map(room_of, modules)):
             axes.plot((4.3, 6.15), (height, middles[room]), color=TONES["step"], alpha=0.6,
                       linewidth=1.0)
-    style.save(figure, options.output, ["docs/architecture.md and the sources"],
-               note="blue: the embeddable core; sand: packages above it")
-    print(options.output)
+    picture.save(figure, options.output, ["docs/architecture.md and the sources"],
+                 "blue: the embeddable core; sand: packages above it")
 
 
 if __name__ == "__main__":

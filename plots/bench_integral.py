@@ -7,8 +7,7 @@ import numpy as np
 from matplotlib.ticker import FixedLocator, NullFormatter
 
 from faststrip_plots import bench, command, scales, style
-from faststrip_plots.results import revision
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots.tables import InputError
 
 FLOOR = 1e-17  # where an error of zero is drawn
 METHODS = {
@@ -25,16 +24,15 @@ LOOPS = {
 RUN = ("flags", "compiler", "cpu")
 
 
-def main(arguments=None):
-    options = bench.options(__doc__, "integral", arguments)
-    table = read_table(options.bench, ("method", "n", "b", "loop", "ns", "rel_err", *RUN))
+@bench.command(__doc__, "integral", ("method", "n", "b", "loop", "ns", "rel_err", *RUN))
+def main(table):
     table.numbers("b")
     ns = table.positive("ns")
     loops = table.one_of("loop", LOOPS)
     error = np.maximum(np.abs(table.numbers("rel_err")), FLOOR)
     for name in RUN:
         if len(set(table.words(name))) > 1:
-            raise InputError(f"{name} must be that of one run, got several: {options.bench}")
+            raise InputError(f"{name} must be that of one run, got several: {table.path}")
 
     figure = style.new_figure(9.0, 5.8)
     axes = figure.subplots()
@@ -43,22 +41,18 @@ def main(arguments=None):
         for (method, loop), rows in scales.groups(table.words("method"), loops)
     ]
     obstacles = draw_dots(axes, dots)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     fit_limits(axes, dots)
-    axes.set_xlabel("time of one evaluation, ns")
-    axes.set_ylabel("relative error")
-    style.title(axes, "Influence integral: error against time")
+    axes.set(xlabel="time of one evaluation, ns", ylabel="relative error",
+             title="Influence integral: error against time")
     style.legend_above(figure, axes)
     flags, compiler, cpu = (table.words(name)[0] for name in RUN)
     flags = " ".join(word for word in flags.split() if word.startswith(("-O", "-m")))
     axes.set_title("; ".join(word for word in (compiler, flags, cpu) if word), loc="right",
-                   color=style.GREY, fontsize=style.SMALL - 1)
+                   color=style.GREY, fontsize=style.SMALL - 1, fontweight="normal")
     figure.draw_without_rendering()
     label(axes, dots, obstacles)
-    style.save(figure, options.output, [revision(table)],
-               f"medians over n and b, bars from least to largest; error 0 drawn at {FLOOR:g}")
-    print(options.output)
+    return figure, f"medians over n and b, bars from least to largest; error 0 drawn at {FLOOR:g}"
 
 
 def draw_dots(axes, dots):

@@ -9,8 +9,6 @@ import sys
 import numpy as np
 
 from faststrip_plots import bench, command, scales, style
-from faststrip_plots.results import revision
-from faststrip_plots.tables import read_table
 
 STARTS = {
     "cold": style.Look("cold start", "#0b3c78", "-", 2.0),
@@ -18,15 +16,14 @@ STARTS = {
     "warm_shift": style.Look("warm start, shift 0.05 mm", "#b03a2e", (0, (1.5, 1.5)), 1.8),
 }
 GOALS = {"cold": (15, 500.0), "warm_load": (15, 100.0)}  # strips and microseconds
+MAYBE = ("iterations", "ns_per_entry", "fastsim_us")
 SLOPE_PART = 4.0  # slopes are measured over this factor in strips, at both ends
 
 
-def main(arguments=None):
-    options = bench.options(__doc__, "normal", arguments)
-    maybe = ("iterations", "ns_per_entry", "fastsim_us")
-    table = read_table(options.bench, ("start", "strips", "us", *maybe))
+@bench.command(__doc__, "normal", ("start", "strips", "us", *MAYBE))
+def main(table):
     values = {name: table.positive(name) for name in ("strips", "us")}
-    values |= {name: table.numbers(name, missing=True) for name in maybe}
+    values |= {name: table.numbers(name, missing=True) for name in MAYBE}
     runs = [(start, medians(rows, values))
             for start, rows in scales.groups(table.one_of("start", STARTS))]
 
@@ -39,8 +36,7 @@ def main(arguments=None):
                                    ("Iterations", "Time of one influence entry, ns")):
         for start, run in runs:
             bench.draw_line(axes, run["strips"], run[name], STARTS[start])
-        axes.set_ylim(bottom=0.0)
-        style.title(axes, heading)
+        axes.set(ylim=(0.0, None), title=heading)
     strips = np.unique(values["strips"])
     time.set_xlim(strips[0] / 1.25, strips[-1] * 1.25)
     time.xaxis.set_major_formatter("{x:g}")
@@ -48,15 +44,12 @@ def main(arguments=None):
         axes.set_xlabel("number of strips $N$")
     small[0].tick_params(labelbottom=False)
     style.legend_above(figure, time)
-    style.save(figure, options.output, [revision(table)],
-               "medians; rings: goals at 15 strips")
-    print(options.output)
+    return figure, "medians; rings: goals at 15 strips"
 
 
 def draw_times(axes, runs, fastsim):
     """Time against strips on logarithmic axes, with slopes at both ends and goals."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     for start, run in runs:
         look = STARTS[start]
         bench.draw_line(axes, run["strips"], run["us"], look)
@@ -74,7 +67,7 @@ def draw_times(axes, runs, fastsim):
                       textcoords="offset points", color=style.GREY, fontsize=style.SMALL)
     axes.set_ylabel("time of one contact, µs")
     axes.yaxis.set_major_formatter("{x:.12g}")
-    style.title(axes, "Normal contact: time against strips")
+    axes.set_title("Normal contact: time against strips")
 
 
 def medians(rows, values):

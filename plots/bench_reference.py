@@ -12,7 +12,6 @@ import sys
 import numpy as np
 
 from faststrip_plots import bench, command, scales, style
-from faststrip_plots.results import revision
 from faststrip_plots.tables import read_table
 
 STARTS = {
@@ -31,20 +30,18 @@ SLOPE_PART = 8.0  # slopes are measured over this factor in elements, at both en
 CLASS = 2.0 ** 0.5  # elements within this factor belong together
 
 
-def main(arguments=None):
-    options = bench.options(__doc__, "reference", arguments, [
-        ("--contact", dict(metavar="CSV",
-                           help="what CONTACT took, as reference/contact/s1002_uic60_B.csv"))])
-    table = read_table(options.bench, ("method", "start", "tolerance", "elements", "us",
-                                       "iterations"))
+@bench.command(
+    __doc__, "reference", ("method", "start", "tolerance", "elements", "us", "iterations"),
+    more={"contact": dict(
+        metavar="CSV", help="what CONTACT took, as reference/contact/s1002_uic60_B.csv")})
+def main(table, contact):
     values = {name: table.positive(name) for name in ("tolerance", "elements", "us")}
     values["iterations"] = table.numbers("iterations")
     runs = [(*key, medians(rows, values)) for key, rows in
             scales.groups(table.one_of("method", METHODS), table.one_of("start", STARTS),
                           values["tolerance"])]
 
-    contact = read_table(options.contact, ("n_contact", *CONTACT.values())) \
-        if options.contact else None
+    contact = read_table(contact, ("n_contact", *CONTACT.values())) if contact else None
     methods = [method for method in METHODS if any(run[0] == method for run in runs)]
     figure = style.new_figure(4.2 * len(methods) + 4.4, 5.2)
     *times, iterations = figure.subplots(1, len(methods) + 1, sharex=True)
@@ -53,25 +50,14 @@ def main(arguments=None):
         if contact is not None:
             axes.plot(contact.numbers("n_contact"), 1e3 * contact.numbers(CONTACT[method]),
                       zorder=4, **style.CONTACT)
-        style.title(axes, METHODS[method])
+        axes.set_title(METHODS[method])
     times[0].set_ylabel("time of one contact, ms")
     draw_iterations(iterations, runs)
     for axes in (*times, iterations):
-        axes.set_xscale("log")
-        axes.set_xlabel("elements in contact")
+        axes.set(xscale="log", xlabel="elements in contact")
         axes.xaxis.set_major_formatter("{x:,.0f}")
-    legend_in_rows(figure, times)
-    style.save(figure, options.output, [revision(table)],
-               "medians, one core; large ring: goal at 3700 elements")
-    print(options.output)
-
-
-def legend_in_rows(figure, times):
-    """One legend above all panels, in two rows if there are many names."""
-    handles = {label: handle for axes in times
-               for handle, label in zip(*axes.get_legend_handles_labels())}
-    figure.legend(handles.values(), handles.keys(), loc="outside upper center",
-                  ncols=math.ceil(len(handles) / 2), handlelength=3.2, columnspacing=2.4)
+    style.legend_above(figure, *times, columns=lambda names: math.ceil(names / 2))
+    return figure, "medians, one core; large ring: goal at 3700 elements"
 
 
 def finest(runs):
@@ -107,7 +93,7 @@ def draw_iterations(axes, runs):
     # iterations of TANG are many times those of NORM
     axes.set_yscale("log")
     axes.yaxis.set_major_formatter("{x:,.0f}")
-    style.title(axes, "Iterations: ● NORM, all grids; ■ TANG")
+    axes.set_title("Iterations: ● NORM, all grids; ■ TANG")
 
 
 def medians(rows, values):

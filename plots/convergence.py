@@ -6,11 +6,10 @@ import sys
 import numpy as np
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from faststrip_plots import command, scales, style
-from faststrip_plots.results import RESULTS, revision
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots import command, picture, scales, style
+from faststrip_plots.results import RESULTS
+from faststrip_plots.tables import InputError
 
-CONVERGENCE = "out/convergence.csv"
 QUANTITIES = {
     "penetration_err": "Approach",
     "pmax_err": "Maximum pressure",
@@ -21,27 +20,21 @@ COLOUR = style.NORMAL["strip"].colour
 ACCENT = style.NORMAL["hertz"].colour
 
 
-def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--convergence", default=CONVERGENCE, metavar="CSV",
-                        help="columns case,strips,status,penetration_err,pmax_err,area_err")
-    parser.add_argument("-o", "--output", default="out/convergence.png", metavar="PNG",
-                        help="picture to write")
-    options = parser.parse_args(arguments)
-    table = read_table(options.convergence, ("case", "strips", "status", *QUANTITIES))
+@picture.command(__doc__, "out/convergence.png", convergence=(
+    "out/convergence.csv", "columns case,strips,status,penetration_err,pmax_err,area_err",
+    ("case", "strips", "status", *QUANTITIES)))
+def main(table):
     strips = table.numbers("strips")
     for row in np.flatnonzero(strips < 1.0):
         raise InputError(
-            f"strips must be at least 1, got {strips[row]:g}"
-            f" ({options.convergence}:{table.lines[row]})"
+            f"strips must be at least 1, got {strips[row]:g} ({table.path}:{table.lines[row]})"
         )
     ok = np.array([status in RESULTS for status in table.words("status")])
     errors = {name: 100.0 * np.abs(table.numbers(name, missing=True)) for name in QUANTITIES}
     for name, values in errors.items():
         values[~ok] = np.nan
         if not (values > 0.0).any():
-            raise InputError(f"{name} must have an error above zero, got none:"
-                             f" {options.convergence}")
+            raise InputError(f"{name} must have an error above zero, got none: {table.path}")
     failed = [status for status in table.words("status") if status not in RESULTS]
     if failed:
         why = ", ".join(f"{failed.count(status)} {status}" for status in dict.fromkeys(failed))
@@ -51,21 +44,17 @@ def main(arguments=None):
     panels = figure.subplots(1, len(QUANTITIES), sharex=True, sharey=True)
     for axes, (name, heading) in zip(panels, QUANTITIES.items()):
         draw(axes, strips, errors[name])
-        style.title(axes, heading)
-        axes.set_xlabel("number of strips $N$")
+        axes.set(title=heading, xlabel="number of strips $N$")
     set_axes(panels[0], strips, np.concatenate(list(errors.values())))
     panels[0].set_ylabel("|relative error|, %")
     style.legend_above(figure, panels[0])
     cases = len(set(table.words("case")))
-    style.save(figure, options.output, [revision(table)],
-               f"{cases} case{'s' if cases > 1 else ''}; p: measured order of the median")
-    print(options.output)
+    return figure, f"{cases} case{'s' if cases > 1 else ''}; p: measured order of the median"
 
 
 def draw(axes, strips, error):
     """Each case a dot, median and largest as lines, a triangle of second order."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     known = error > 0.0
     axes.plot(strips[known], error[known], linestyle="none", marker="o", markersize=3.0,
               color="#9db4d0", markeredgewidth=0.0, zorder=2, label="one case")

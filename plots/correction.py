@@ -5,9 +5,8 @@ import sys
 
 import numpy as np
 
-from faststrip_plots import command, style
-from faststrip_plots.results import revision
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots import command, picture, style
+from faststrip_plots.tables import InputError
 
 # The panels: creepage, force and its name.
 PANELS = (("longitudinal", "Fx", "$F_x$, longitudinal creepage"),
@@ -33,14 +32,9 @@ def grid_of(table, direction, force):
     return across, up, before, after
 
 
-def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--correction", default="out/correction.csv", metavar="CSV",
-                        help="what `faststrip-lab bench correction` wrote")
-    parser.add_argument("-o", "--output", default="out/correction.png", metavar="PNG",
-                        help="picture to write")
-    options = parser.parse_args(arguments)
-    table = read_table(options.correction, COLUMNS)
+@picture.command(__doc__, "out/correction.png", correction=(
+    "out/correction.csv", "what `faststrip-lab bench correction` wrote", COLUMNS))
+def main(table):
     figure = style.new_figure(14.0, 5.6)
     axes = figure.subplots(2, len(PANELS), sharex=True, sharey=True)
     for k, (direction, force, name) in enumerate(PANELS):
@@ -50,18 +44,15 @@ def main(arguments=None):
             panel = axes[row, k]
             colours = panel.pcolormesh(across, up, values, cmap="RdBu_r", vmin=-limit, vmax=limit,
                                        shading="gouraud")
-            panel.set_xscale("log")
-            panel.set_yscale("log")
             worst = style.number(float(f"{np.abs(values).max():.2g}"))
-            style.title(panel, f"{name}\n{what}, at most {worst} %" if row == 0
-                        else f"{what}, at most {worst} %")
+            panel.set(xscale="log", yscale="log",
+                      title=("" if row else f"{name}\n") + f"{what}, at most {worst} %")
         figure.colorbar(colours, ax=axes[:, k], location="bottom", shrink=0.9, pad=0.02,
                         label=r"% of $\mu\cdot N$" + (r"$\sqrt{ab}$" if force == "Mz" else ""))
         axes[1, k].set_xlabel("$a/b$")
     for panel in axes[:, 0]:
         panel.set_ylabel(r"linear force over $\mu\cdot N$")
-    style.save(figure, options.output, [revision(table)])
-    print(options.output)
+    return figure, ""
 
 
 if __name__ == "__main__":

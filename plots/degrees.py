@@ -6,11 +6,9 @@ import sys
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from faststrip_plots import command, scales, style
-from faststrip_plots.results import revision
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots import command, picture, scales, style
+from faststrip_plots.tables import InputError
 
-DEGREES = "out/degrees.csv"
 BASES = {
     "monomial": style.Look("monomials $L^k$", "#f08519", (0, (5, 1.8)), 1.8),
     "chebyshev": style.Look("Chebyshev polynomials $T_k$", "#0b3c78", "-", 2.0),
@@ -20,6 +18,7 @@ FITS = {
     "minimax": "minimax",
     "author": "the author's procedure",
 }
+COLUMNS = ("basis", "fit", "n", "degree", "max_rel_err", "rms_rel_err", "condition")
 PUBLISHED = 6  # degree of the published polynomials
 RED = "#c03010"  # where monomials break down
 MORE = 1.25  # times the error in Chebyshev polynomials of the same degree: broken down
@@ -42,25 +41,19 @@ class Decay:
         )
 
 
-def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--degrees", default=DEGREES, metavar="CSV",
-                        help="columns basis,fit,n,degree,max_rel_err,rms_rel_err,condition")
-    parser.add_argument("-o", "--output", default="out/degrees.png", metavar="PNG",
-                        help="picture to write")
-    options = parser.parse_args(arguments)
-    table = read_table(options.degrees, ("basis", "fit", "n", "degree", "max_rel_err",
-                                         "rms_rel_err", "condition"))
+@picture.command(__doc__, "out/degrees.png", degrees=(
+    "out/degrees.csv", f"columns {','.join(COLUMNS)}", COLUMNS))
+def main(table):
     table.numbers("n")
     for basis, line in zip(table.words("basis"), table.lines):
         if basis not in BASES:
             raise InputError(
-                f"basis must be monomial or chebyshev, got {basis} ({options.degrees}:{line})"
+                f"basis must be monomial or chebyshev, got {basis} ({table.path}:{line})"
             )
     decays = {key: Decay(table, rows)
               for key, rows in scales.groups(table.words("fit"), table.words("basis"))}
     if not any((decay.high > 0.0).any() for decay in decays.values()):
-        raise InputError(f"max_rel_err must have an error above zero, got none: {options.degrees}")
+        raise InputError(f"max_rel_err must have an error above zero, got none: {table.path}")
     fits = list(dict.fromkeys(fit for fit, _ in decays))
 
     figure = style.new_figure(5.6 * max(len(fits), 1.3), 7.6)
@@ -69,17 +62,14 @@ def main(arguments=None):
     for fit, (upper, lower) in zip(fits, grid.T):
         own = {basis: decays[fit, basis] for basis in BASES if (fit, basis) in decays}
         draw_fit(upper, lower, own)
-        style.title(upper, f"Relative error, {FITS.get(fit, fit)}")
-        style.title(lower, "Condition of the matrix")
-        lower.set_xlabel("degree")
+        upper.set_title(f"Relative error, {FITS.get(fit, fit)}")
+        lower.set(title="Condition of the matrix", xlabel="degree")
     grid[0, 0].set_ylabel("largest |relative error|")
     grid[1, 0].set_ylabel("condition number")
     figure.align_ylabels(grid[:, 0])
     style.legend_above(figure, *grid[0])
     distances = len(set(table.words("n")))
-    style.save(figure, options.output, [revision(table)],
-               f"line: worst of {distances} strip distances; band: least to worst; dots: rms")
-    print(options.output)
+    return figure, f"line: worst of {distances} strip distances; band: least to worst; dots: rms"
 
 
 def draw_fit(upper, lower, decays):
@@ -95,10 +85,10 @@ def draw_fit(upper, lower, decays):
     for basis in reversed(decays):
         decay, look = decays[basis], BASES[basis]
         front = 4 if basis == "monomial" else 3
-        line = dict(color=look.colour, linestyle=look.line, linewidth=look.width, zorder=front)
+        line = look.line_style | dict(zorder=front)
         upper.fill_between(decay.degree, scales.positive(decay.low), scales.positive(decay.high),
                            color=look.colour, alpha=0.14, linewidth=0.0, zorder=2)
-        upper.plot(decay.degree, scales.positive(decay.high), label=look.label, **line)
+        upper.plot(decay.degree, scales.positive(decay.high), **line)
         upper.plot(decay.degree, scales.positive(decay.rms), color=look.colour, linestyle="none",
                    marker=".", markersize=3.2, zorder=front)
         lower.plot(decay.degree, scales.positive(decay.condition), **line)

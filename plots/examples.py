@@ -1,18 +1,15 @@
 #!/usr/bin/env python3
 """Draw and tabulate how far each method is from Kalker's on the cases of example/cases."""
 
-import csv
-import io
 import math
 import os
 import sys
 
 import numpy as np
 
-from faststrip_plots import command
-from faststrip_plots.document import write_text
+from faststrip_plots import command, style
+from faststrip_plots.document import announce, write_dicts, write_rows
 from faststrip_plots.results import RESULTS, revision
-from faststrip_plots.style import legend_above, new_figure, save, title
 from faststrip_plots.tables import InputError, read_table
 
 REFERENCE = "Kalker"
@@ -23,27 +20,21 @@ LEAST = 1e-3  # %, what is drawn for less
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--examples", default="out/examples.csv", metavar="CSV",
-                        help="what `faststrip-lab bench examples` wrote")
-    parser.add_argument("--folder", default="out/examples", metavar="FOLDER",
-                        help="picture and tables go there")
-    options = parser.parse_args(arguments)
+    options = command.options(__doc__, arguments, {
+        "examples": ("out/examples.csv", "what `faststrip-lab bench examples` wrote")},
+        folder=("out/examples", "picture and tables go there"))
     table = read_table(options.examples, ("example", "method", "status", "N_N", "mu", "pmax_MPa",
                                           "Fx_N", "Fy_N", "normal_us", "tangential_us", "choice"))
     rows = errors(table)
-    os.makedirs(options.folder, exist_ok=True)
     draw(rows, os.path.join(options.folder, "examples.png"), revision(table))
-    write_rows(options.folder, "examples_table.csv", tuple(rows[0]),
-               [tuple(r.values()) for r in rows])
+    write_dicts(os.path.join(options.folder, "examples_table.csv"), rows)
     choices = [(s, c) for s, m, c in zip(*(table.words(n) for n in ("example", "method", "choice")))
                if m.startswith("auto")]
-    write_rows(options.folder, "examples_choice.csv", ("example", "choice"), choices)
-    header = ("file", "title", "caption", "chapter")
-    write_rows(options.folder, "figures.csv", header, [
+    write_rows(os.path.join(options.folder, "examples_choice.csv"), ("example", "choice"), choices)
+    announce(options.folder, "figures.csv", [
         ("examples.png", "Examples", "Distance of each method from Kalker's on ten cases; what is"
          " left out has no result.", "examples")])
-    write_rows(options.folder, "tables.csv", header, [
+    announce(options.folder, "tables.csv", [
         ("examples_table.csv", "Examples by method", "Errors in % of Kalker's maximum pressure and"
          " of mu N; times in microseconds.", "examples"),
         ("examples_choice.csv", "What is chosen for 2 % of mu N", "", "auto")])
@@ -78,7 +69,7 @@ def errors(table):
 def draw(rows, path, stamp):
     examples = list(dict.fromkeys(row["example"] for row in rows))
     methods = [m for m in dict.fromkeys(row["method"] for row in rows) if m != REFERENCE]
-    figure = new_figure(11.5, 5.2)
+    figure = style.new_figure(11.5, 5.2)
     panels = figure.subplots(1, 2, sharey=True)
     for axes, (figure_name, words) in zip(panels, PANELS):
         for k, method in enumerate(methods):
@@ -88,22 +79,13 @@ def draw(rows, path, stamp):
                       [place + 0.14 * (k - 0.5 * (len(methods) - 1)) for _, place in own],
                       linestyle="none", marker=MARKERS[k % 5], color=COLOURS[k % 5],
                       markersize=6.5, label=method)
-        axes.set_xscale("log")
-        axes.set_xlabel("error in %")
+        axes.set(xscale="log", xlabel="error in %")
         axes.set_yticks(range(len(examples)), [name.replace("_", " ") for name in examples])
         axes.set_ylim(len(examples) - 0.5, -0.5)
         axes.axvline(2.0, color="#888888", linewidth=0.9, linestyle=(0, (4, 3)))
-        title(axes, words)
-    legend_above(figure, *panels)
-    save(figure, path, [stamp], "dashed: 2 %, what auto was asked for the forces")
-
-
-def write_rows(folder, name, header, rows):
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
-    write_text(os.path.join(folder, name), stream.getvalue())
+        axes.set_title(words)
+    style.legend_above(figure, *panels)
+    style.save(figure, path, [stamp], "dashed: 2 %, what auto was asked for the forces")
 
 
 if __name__ == "__main__":

@@ -12,11 +12,10 @@ from collections import namedtuple
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from faststrip_plots import command, style
+from faststrip_plots import command, picture, style
 from faststrip_plots.results import revision
 from faststrip_plots.tables import InputError, read_table
 
-EXTREMES = "out/extremes/extremes.csv"
 NAMES = ("chapter", "case", "method", "x_name", "x", "y_name", "y", "quantity", "value", "judge",
          "status")
 FIGURES = {"penetration": "approach", "pmax": "maximum pressure", "area": "area", "Fx": "$F_x$",
@@ -25,6 +24,8 @@ COLOURS = ("#0b3c78", "#f08519", "#4b8f3c", "#a8326e", "#5f4ba8", "#8a8a8a")
 LINES = ("-", (0, (5, 1.8)), (0, (1.2, 1.2)), (0, (6, 1.6, 1.2, 1.6)), (0, (3, 1, 1, 1, 1, 1)),
          (0, (8, 2)))
 MARKS = ("o", "s", "^", "D", "v", "P")
+LOOKS = [{"color": colour, "linestyle": line, "marker": mark}
+         for colour, line, mark in zip(COLOURS, LINES, MARKS)]
 EMPTY = "#e9e9e9"
 MANY = 50  # from so many fields on a map has no lines between them
 LEAST = 1e-17  # what is below is drawn as this
@@ -35,41 +36,33 @@ Panel = namedtuple("Panel", "heading rows limits")
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--extremes", default=EXTREMES, metavar="CSV",
-                        help="what `faststrip-lab bench extremes` wrote")
-    parser.add_argument("--rounding", metavar="CSV",
-                        help="the part `rounding` of a program without vector functions")
-    parser.add_argument("--single", metavar="CSV",
-                        help="what tools/building/single_precision.py wrote")
-    parser.add_argument("--folder", default="out/extremes", metavar="FOLDER",
-                        help="folder for the pictures")
-    options = parser.parse_args(arguments)
+    options = command.options(__doc__, arguments, {
+        "extremes": ("out/extremes/extremes.csv", "what `faststrip-lab bench extremes` wrote"),
+        "rounding": (None, "the part `rounding` of a program without vector functions"),
+        "single": (None, "what tools/building/single_precision.py wrote")},
+        folder=("out/extremes", "folder for the pictures"))
     table = read_table(options.extremes, NAMES)
     rows = read_rows(table)
     scalar = read_rows(read_table(options.rounding, NAMES)) if options.rounding else None
     single = read_rows(read_table(options.single, NAMES)) if options.single else None
-    stamp = [revision(table)]
+    # By the chapter that each needs; the first gives the name.
     pictures = {
-        "influence": lambda path: draw_influence(path, rows, stamp),
-        "normal": lambda path: draw_normal(path, rows, stamp),
-        "tangential": lambda path: draw_tangential(path, rows, stamp),
-        "steadiness": lambda path: draw_steadiness(path, rows, scalar, stamp),
+        ("influence", "influence"): lambda: draw_influence(rows),
+        ("normal", "ellipses"): lambda: draw_normal(rows),
+        ("tangential", "tangential"): lambda: draw_tangential(rows),
+        ("steadiness", "noise"): lambda: draw_steadiness(rows, scalar),
     }
-    chapters = set(rows.words["chapter"])
-    needs = {"influence": "influence", "normal": "ellipses", "tangential": "tangential",
-             "steadiness": "noise"}
-    drawn = [name for name in pictures if needs[name] in chapters]
-    if not drawn and single is None:
-        raise InputError(f"none of the chapters {', '.join(needs.values())}: {options.extremes}")
-    for name in drawn:
-        path = os.path.join(options.folder, f"extremes_{name}.png")
-        pictures[name](path)
-        print(path)
+    drawn = {name: draw for (name, chapter), draw in pictures.items()
+             if chapter in rows.words["chapter"]}
     if single is not None:
-        path = os.path.join(options.folder, "extremes_single.png")
-        draw_single(path, single, stamp)
-        print(path)
+        drawn["single"] = lambda: draw_single(single)
+    if not drawn:
+        chapters = ", ".join(chapter for _, chapter in pictures)
+        raise InputError(f"none of the chapters {chapters}: {options.extremes}")
+    for name, draw in drawn.items():
+        figure, note = draw()
+        picture.save(figure, os.path.join(options.folder, f"extremes_{name}.png"),
+                     [revision(table)], note)
 
 
 def read_rows(table):
@@ -115,8 +108,7 @@ def draw_map(axes, panel, x_label, y_label):
     axes.grid(False)
     ticks(axes.xaxis, across)
     ticks(axes.yaxis, up)
-    axes.set_xlabel(x_label)
-    axes.set_ylabel(y_label)
+    axes.set(xlabel=x_label, ylabel=y_label)
     axes.set_title(panel.heading, loc="left", fontweight="bold", pad=17.0)
     text = "no result" if np.isnan(grid).all() else f"largest {short(np.nanmax(grid))}"
     for status, number in absent.items():
@@ -161,19 +153,17 @@ def colour_bar(figure, image, axes, label=""):
         bar.set_label(label, fontsize=style.SMALL)
 
 
-def draw_maps(path, panels, shape, size, labels, stamp, note):
+def draw_maps(panels, labels):
     """Several maps with their colour bars."""
-    figure = style.new_figure(*size)
-    axes = figure.subplots(*shape, squeeze=False)
+    figure = style.new_figure(15.5, 7.6)
+    axes = figure.subplots(2, 3)
     for place, panel, label in zip(axes.flat, panels, labels):
         image = draw_map(place, panel, *label)
         colour_bar(figure, image, place, "relative error")
-    for place in axes.flat[len(panels):]:
-        place.set_visible(False)
-    style.save(figure, path, stamp, note)
+    return figure
 
 
-def draw_influence(path, rows, stamp):
+def draw_influence(rows):
     """Errors of the influence integral by each method."""
     own = select(rows, chapter="influence")
     centre = select(own, case="centre")
@@ -190,12 +180,12 @@ def draw_influence(path, rows, stamp):
     width, distance, place = "width over length $b$", "strip distance $n$", "place $X$"
     labels = [(width, place if heading in ("Off the centre line", "The same by GSL") else distance)
               for heading, _, _ in panels]
-    draw_maps(path, panels, (2, 3), (15.5, 7.6), labels, stamp,
-              "judge: quadrature in quadruple precision, its uncertainty added; off the centre"
-              " line the largest of n = 0, 1, 10, 1000000")
+    return draw_maps(panels, labels), (
+        "judge: quadrature in quadruple precision, its uncertainty added; off the centre line the"
+        " largest of n = 0, 1, 10, 1000000")
 
 
-def draw_normal(path, rows, stamp):
+def draw_normal(rows):
     """Errors of the strip solver against Hertz, and the condition of its matrix."""
     figure = style.new_figure(15.5, 7.6)
     axes = figure.subplots(2, 3)
@@ -205,11 +195,9 @@ def draw_normal(path, rows, stamp):
         each = select(own, quantity=quantity)
         for k, ratio in enumerate(np.unique(each.x)):
             of_ratio = each.x == ratio
-            place.loglog(each.y[of_ratio], each.value[of_ratio], color=COLOURS[k % 6],
-                         linestyle=LINES[k % 6], marker=MARKS[k % 6], markersize=4,
+            place.loglog(each.y[of_ratio], each.value[of_ratio], **LOOKS[k % 6], markersize=4,
                          label=f"$a/b$ = {short(ratio)}")
-        place.set_xlabel("number of strips $N$")
-        style.title(place, heading)
+        place.set(xlabel="number of strips $N$", title=heading)
     axes[0, 0].set_ylabel("relative error")
     axes[1, 0].set_ylabel("of the strip matrix, 1-norm")
     axes[1, 0].legend(fontsize=style.SMALL)
@@ -226,10 +214,10 @@ def draw_normal(path, rows, stamp):
         image = draw_map(place, Panel(heading, select(rows, chapter=chapter, quantity=quantity),
                                       limits), *names[chapter])
         colour_bar(figure, image, place, "relative error")
-    style.save(figure, path, stamp, "judge: Hertz's exact solution")
+    return figure, "judge: Hertz's exact solution"
 
 
-def draw_tangential(path, rows, stamp):
+def draw_tangential(rows):
     """The size of the force of every method, and how far the rules are kept."""
     own = select(rows, chapter="tangential")
     methods = list(dict.fromkeys(own.words["method"]))
@@ -261,22 +249,19 @@ def draw_tangential(path, rows, stamp):
         top = max(top, 10.0 * largest(np.array(heights)))
         bars.plot(np.arange(len(methods)) + 0.12 * (k - 1.5), np.maximum(heights, LEAST),
                   linestyle="none", marker=MARKS[k], markersize=7, color=COLOURS[k], label=label)
-    bars.set_yscale("log")
-    bars.set_ylim(LEAST / 3.0, top)
+    bars.set(yscale="log", ylim=(LEAST / 3.0, top))
     bars.set_xticks(np.arange(len(methods)), methods)
-    bars.set_xlim(-0.5, len(methods) - 0.5)
-    bars.set_ylabel("largest, of $\\mu\\cdot N$")
-    style.title(bars, f"Rules kept? (zero is drawn at {short(LEAST)})")
+    bars.set(xlim=(-0.5, len(methods) - 0.5), ylabel="largest, of $\\mu\\cdot N$",
+             title=f"Rules kept? (zero is drawn at {short(LEAST)})")
     bars.legend(fontsize=style.SMALL, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    style.save(figure, path, stamp,
-               "maps: size of the force over $\\mu\\cdot N$ (over $N$ without friction), largest"
-               " of all directions and Poisson's ratios")
+    return figure, ("maps: size of the force over $\\mu\\cdot N$ (over $N$ without friction),"
+                    " largest of all directions and Poisson's ratios")
 
 
 # --------------------------------------------------------------------------------- steadiness
 
 
-def draw_steadiness(path, rows, scalar, stamp):
+def draw_steadiness(rows, scalar):
     """Noise, load steps and rounding modes."""
     figure = style.new_figure(14.5, 5.2)
     noise, steps, digits = figure.subplots(1, 3)
@@ -286,27 +271,22 @@ def draw_steadiness(path, rows, scalar, stamp):
     for k, (name, label) in enumerate(FIGURES.items()):
         each = select(own, quantity=name)
         worst = [largest(each.value[each.x == level]) for level in levels]
-        noise.loglog(levels, worst, color=COLOURS[k], linestyle=LINES[k], marker=MARKS[k],
-                     markersize=4.5, label=label)
-    noise.set_xlabel("noise of heights and curvatures, relative")
-    noise.set_ylabel("largest change, relative")
-    style.title(noise, "Noise in the gap")
+        noise.loglog(levels, worst, **LOOKS[k], markersize=4.5, label=label)
+    noise.set(xlabel="noise of heights and curvatures, relative", ylabel="largest change, relative",
+              title="Noise in the gap")
     noise.legend(fontsize=style.SMALL)
     own = select(rows, chapter="load_steps")
     for k, (name, label) in enumerate(FIGURES.items()):
         each = np.sort(select(own, quantity=name).value)
         each = np.maximum(each[np.isfinite(each)], LEAST)
         if each.size:
-            steps.plot(np.arange(1, each.size + 1) / each.size, each, color=COLOURS[k],
-                       linestyle=LINES[k], marker=MARKS[k], markersize=3.5, label=label)
-    steps.set_yscale("log")
-    steps.set_ylim(bottom=1e-10)
-    steps.set_xlabel("share of the contacts")
-    steps.set_ylabel("largest jump, relative")
-    style.title(steps, "Jumps while the load grows")
+            steps.plot(np.arange(1, each.size + 1) / each.size, each, **LOOKS[k], markersize=3.5,
+                       label=label)
+    steps.set(yscale="log", ylim=(1e-10, None), xlabel="share of the contacts",
+              ylabel="largest jump, relative", title="Jumps while the load grows")
     draw_digits(digits, rows, scalar)
-    style.save(figure, path, stamp,
-               "forces relative to $\\mu\\cdot N$, moment to $\\mu\\cdot N\\sqrt{area/\\pi}$")
+    return figure, ("forces relative to $\\mu\\cdot N$, moment to"
+                    " $\\mu\\cdot N\\sqrt{area/\\pi}$")
 
 
 def draw_digits(axes, rows, scalar):
@@ -325,9 +305,7 @@ def draw_digits(axes, rows, scalar):
                   height=0.94 * height, color=COLOURS[k], label=label)
     axes.set_yticks(np.arange(len(names)), ["influence", *FIGURES.values()])
     axes.invert_yaxis()
-    axes.set_xlim(0.0, 16.5)
-    axes.set_xlabel("digits that agree")
-    style.title(axes, "Four rounding modes")
+    axes.set(xlim=(0.0, 16.5), xlabel="digits that agree", title="Four rounding modes")
     axes.legend(fontsize=style.SMALL, loc="upper center", bbox_to_anchor=(0.5, -0.12))
 
 
@@ -340,7 +318,7 @@ def largest(values):
 # ----------------------------------------------------------------------------- single precision
 
 
-def draw_single(path, rows, stamp):
+def draw_single(rows):
     """Errors of the kernels built in single precision."""
     influence = {"strip_influence", "strip_influence_at", "gradient", "column_gradient"}
     limits = (1e-8, 1e-2)
@@ -358,8 +336,8 @@ def draw_single(path, rows, stamp):
     ):
         panels.append(Panel(heading, select(others, **wanted), limits))
         labels.append(("curvatures $A/B$", "load, N"))
-    draw_maps(path, panels, (2, 3), (15.5, 7.6), labels, stamp,
-              "single against double precision, the largest difference at each place")
+    return draw_maps(panels, labels), (
+        "single against double precision, the largest difference at each place")
 
 
 if __name__ == "__main__":

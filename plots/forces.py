@@ -4,9 +4,8 @@
 import sys
 
 import numpy as np
-from matplotlib.ticker import NullFormatter
 
-from faststrip_plots import command, style
+from faststrip_plots import command, picture, style
 from faststrip_plots.results import revision
 from faststrip_plots.tables import InputError, read_table
 
@@ -28,24 +27,24 @@ MARKERS = dict(zip(METHODS, "o*sD^v<>Px"))
 ERRORS = ("Fx_err", "Fy_err", "force_err", "Mz_err")
 RATIOS = (0.2, 1.0, 5.0)  # a/b of the panels
 STRIPS = 15  # of the times
+LEGEND = {"length": 3.0, "spacing": 1.6}
 TOP = 1.12  # forces over mu N beyond which a panel ends
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--forces", default="out/forces/forces.csv", metavar="CSV",
-                        help="what `faststrip-lab bench forces` wrote")
-    parser.add_argument("--times", default="out/forces/bench_tangential.csv", metavar="CSV",
-                        help="what `faststrip-lab bench tangential` wrote")
-    parser.add_argument("--contacts", default="reference/contact", metavar="FOLDER",
-                        help="CONTACT's results")
-    parser.add_argument("--curves", default="out/forces/creep_forces.png", metavar="PNG",
-                        help="picture of the creep force curves to write")
-    parser.add_argument("--shifts", default="out/forces/shift_forces.png", metavar="PNG",
-                        help="picture of the forces over the lateral shift to write")
-    parser.add_argument("--trade", default="out/forces/error_time.png", metavar="PNG",
-                        help="picture of error against time to write")
-    options = parser.parse_args(arguments)
+    pictures = {"curves": ("creep_forces", "the creep force curves"),
+                "shifts": ("shift_forces", "the forces over the lateral shift"),
+                "trade": ("error_time", "error against time")}
+    options = command.options(
+        __doc__, arguments, {
+            "forces": ("out/forces/forces.csv", "what `faststrip-lab bench forces` wrote"),
+            "times": ("out/forces/bench_tangential.csv",
+                      "what `faststrip-lab bench tangential` wrote")},
+        more={"contacts": dict(default="reference/contact", metavar="FOLDER",
+                               help="CONTACT's results"),
+              **{name: dict(default=f"out/forces/{file}.png", metavar="PNG",
+                            help=f"picture of {words} to write")
+                 for name, (file, words) in pictures.items()}})
     table = read_table(options.forces, ("set", "group", "case", "method", *ERRORS))
     errors = Errors(table)
     stamp = [revision(table)]
@@ -56,8 +55,7 @@ def main(arguments=None):
         (options.trade, trade_figure(errors, options.times),
          "processor time with 15 by 15 elements; FASTSIM's errors with 50 by 50"),
     ):
-        style.save(figure, path, stamp, note)
-        print(path)
+        picture.save(figure, path, stamp, note)
 
 
 class Errors:
@@ -106,16 +104,14 @@ def curves_figure(errors, folder):
                 case, error = errors.select("hertz", method, group)
                 place = {number - 1: i for i, number in enumerate(case)}
                 off = np.array([error[f"{quantity}_err"][place[i]] for i in chosen]) / 100.0
-                axes.plot(u, -(exact + off), color=look.colour, linestyle=look.line,
-                          linewidth=look.width, label=look.label, zorder=3)
+                axes.plot(u, -(exact + off), **look.line_style, zorder=3)
             axes.plot(u, -exact, zorder=6, **style.CONTACT)
-            style.title(axes, f"{'slip along x' if group == 'long' else 'spin'},"
-                              f" $a/b$ = {ratio:g}")
-            axes.set_xlim(0.0, 3.1)
-            axes.set_ylim(0.0, TOP if quantity != "Mz" else 1.25 * max(-exact[u <= 3.0]))
+            axes.set(title=f"{'slip along x' if group == 'long' else 'spin'},"
+                           f" $a/b$ = {ratio:g}", xlim=(0.0, 3.1),
+                     ylim=(0.0, TOP if quantity != "Mz" else 1.25 * max(-exact[u <= 3.0])))
         line[0].set_ylabel(label)
     panels[-1][1].set_xlabel("creepage over that of saturation by the linear theory")
-    legend(figure, panels[0][0])
+    style.legend_above(figure, panels[0][0], **LEGEND)
     return figure
 
 
@@ -133,14 +129,12 @@ def shifts_figure(errors, folder):
             case, error = errors.select("s1002_uic60_B", method)
             if len(case) != len(shift):
                 raise InputError(f"{len(case)} cases by {method}, not {len(shift)} ({errors.path})")
-            axes.plot(shift[order], error[name][order], color=look.colour, linestyle=look.line,
-                      linewidth=look.width, label=look.label,
+            axes.plot(shift[order], error[name][order], **look.line_style,
                       marker="." if look.width > 2 else None)
-        axes.set_ylim(-14.0, 14.0)
-        axes.set_ylabel(label)
-        style.title(axes, f"Error of {label.split(',')[0]} against CONTACT")
+        axes.set(ylim=(-14.0, 14.0), ylabel=label,
+                 title=f"Error of {label.split(',')[0]} against CONTACT")
     panels[-1].set_xlabel("lateral shift of the wheel, mm")
-    legend(figure, panels[0])
+    style.legend_above(figure, panels[0], **LEGEND)
     return figure
 
 
@@ -163,25 +157,12 @@ def trade_figure(errors, path):
             axes.plot(np.median(time[chosen]), mean, linestyle="none", color=look.colour,
                       marker=MARKERS[method], markersize=9 if method == "faststrip" else 7,
                       label=look.label)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel("forces of one contact, µs")
-        for axis in (axes.xaxis, axes.yaxis):
-            axis.set_major_formatter("{x:g}")
-            axis.set_minor_formatter(NullFormatter())
+        style.log_axes(axes)
         axes.set_xticks((0.5, 1.0, 2.0, 5.0, 10.0))
-        axes.set_xlim(0.5, 10.0)
-        style.title(axes, heading)
+        axes.set(xlim=(0.5, 10.0), title=heading, xlabel="forces of one contact, µs")
     figure.axes[0].set_ylabel("mean error of the force, % of $\\mu\\cdot N$")
-    legend(figure, figure.axes[0])
+    style.legend_above(figure, figure.axes[0], **LEGEND)
     return figure
-
-
-def legend(figure, axes):
-    """One legend above all panels, in as many rows as it takes."""
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=5, handlelength=3.0,
-                  columnspacing=1.6)
 
 
 if __name__ == "__main__":

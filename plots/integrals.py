@@ -7,22 +7,18 @@ import sys
 import matplotlib
 import numpy as np
 
-from faststrip_plots import command, scales, style
+from faststrip_plots import command, picture, scales, style
 from faststrip_plots.curves import ABSCISSA, GROUPS, RANGE, colour_of, read_curves
 
-CURVES = "out/curves.csv"
 ERROR_AXIS = (1e-5, 1e3)  # relative errors shown outside the range
 SHADE = "#e8eef6"
 PUBLISHED = dict(color="black", linewidth=1.0, linestyle=(0, (4, 2.4)), zorder=4)
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--curves", default=CURVES, metavar="CSV",
-                        help="what `faststrip table --curves` wrote")
-    parser.add_argument("--folder", default="out", metavar="DIR",
-                        help="where integrals.png and integral_errors.png go")
-    options = parser.parse_args(arguments)
+    options = command.options(
+        __doc__, arguments, {"curves": ("out/curves.csv", "what `faststrip table --curves` wrote")},
+        folder=("out", "where integrals.png and integral_errors.png go"))
     curves, stamp = read_curves(options.curves)
     parts = [
         (first, last, [curve for curve in curves if first <= curve.n <= last])
@@ -32,9 +28,7 @@ def main(arguments=None):
     # both are drawn before either is written: bad input leaves no picture behind
     pictures = {"integrals.png": value_figure(parts), "integral_errors.png": error_figure(parts)}
     for name, (figure, note) in pictures.items():
-        path = os.path.join(options.folder, name)
-        style.save(figure, path, [stamp], note)
-        print(path)
+        picture.save(figure, os.path.join(options.folder, name), [stamp], note)
 
 
 def value_figure(parts):
@@ -50,8 +44,7 @@ def value_figure(parts):
                 known = curve.inside & (curve.published > 0.0)
                 axes.plot(curve.L[known], change(curve.published[known]), **PUBLISHED,
                           label=r"published polynomial, $-2 \leq L \leq 1$")
-        style.title(upper, group_title(first, last))
-        upper.set_ylim(bottom=0.0)
+        upper.set(title=group_title(first, last), ylim=(0.0, None))
         for axes in (upper, lower):
             axes.set_xlim(*abscissae(curves))
         lower.set_xlabel(ABSCISSA)
@@ -87,11 +80,8 @@ def error_figure(parts):
             size = np.abs(curve.rel_err)
             lower.plot(curve.L, np.where(size > 0.0, size, np.nan), **look)
             beyond |= bool((size > ERROR_AXIS[1]).any())
-        style.title(upper, group_title(first, last))
-        upper.set_xlim(*RANGE)
-        lower.set_xlim(*abscissae(curves))
-        lower.set_yscale("log")
-        lower.set_ylim(*ERROR_AXIS)
+        upper.set(title=group_title(first, last), xlim=RANGE)
+        lower.set(xlim=abscissae(curves), yscale="log", ylim=ERROR_AXIS)
         lower.axhline(1.0, color="#444444", linewidth=0.8, zorder=1)
         lower.annotate("range of the table", (0.5 * sum(RANGE), ERROR_AXIS[1]), (0.0, -4.0),
                        textcoords="offset points", ha="center", va="top", fontsize=style.SMALL,
@@ -108,7 +98,7 @@ def error_figure(parts):
             norm = matplotlib.colors.BoundaryNorm(np.arange(4.5, last + 1.0), colours.N)
             bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, colours), ax=list(column),
                                   ticks=[5, 8, 11, 14, 17, 20], aspect=40, pad=0.02)
-            bar.ax.set_title("$n$", fontsize=style.SMALL)
+            bar.ax.set_title("$n$", fontsize=style.SMALL, fontweight="normal", loc="center")
             bar.ax.minorticks_off()
         elif len(curves) > 1:
             column[0].legend(loc="upper right", fontsize=style.SMALL, handlelength=1.8,

@@ -2,38 +2,20 @@
 """Draw how good a lookup table is: its forces along lines of creepage beside direct solutions, and
 how often its errors on fresh contacts are how large."""
 
-import os
 import sys
 
 import numpy as np
 
-from faststrip_plots import command, style
-from faststrip_plots.results import revision
-from faststrip_plots.tables import read_table
+from faststrip_plots import command, picture, style
 
 STATE = ("a_mm", "b_mm", "N_N", "mu", "cksi", "cphi_rad_per_mm")
 DIRECT = ("Fx_N", "Fy_N", "Mz_Nmm")
 LINEAR = ("Fx_linear_N", "Fy_linear_N", "Mz_linear_Nmm")
 CUBIC = ("Fx_cubic_N", "Fy_cubic_N", "Mz_cubic_Nmm")
+COLUMNS = (*STATE, *DIRECT, *LINEAR, *CUBIC)
 NAMES = ("$F_x/(\\mu\\cdot N)$", "$F_y/(\\mu\\cdot N)$", "$M_z/(\\mu\\cdot N c)$")
 LOOKS = tuple(style.METHOD[key] for key in (("strip", "faststrip"), ("hertz", "fastsim"),
                                             ("norm", "tang")))
-
-
-def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--lines", default="out/lookup/lines.csv", metavar="CSV",
-                        help="what `faststrip lookup test --states --contacts` wrote")
-    parser.add_argument("--contacts", default="out/lookup/contacts.csv", metavar="CSV",
-                        help="what `faststrip lookup test --contacts` wrote")
-    parser.add_argument("--folder", default="out/lookup", metavar="DIR",
-                        help="where lookup.png goes")
-    options = parser.parse_args(arguments)
-    lines = read_table(options.lines, (*STATE, *DIRECT, *LINEAR, *CUBIC))
-    contacts = read_table(options.contacts, (*STATE, *DIRECT, *LINEAR, *CUBIC))
-    path = os.path.join(options.folder, "lookup.png")
-    draw(path, lines, contacts)
-    print(path)
 
 
 def forces(table, names):
@@ -44,7 +26,12 @@ def forces(table, names):
             for name in names]
 
 
-def draw(path, lines, contacts):
+@picture.command(
+    __doc__, "lookup.png", folder="out/lookup",
+    lines=("out/lookup/lines.csv", "what `faststrip lookup test --states --contacts` wrote",
+           COLUMNS),
+    contacts=("out/lookup/contacts.csv", "what `faststrip lookup test --contacts` wrote", COLUMNS))
+def main(lines, contacts):
     """Three panels of forces, one of errors."""
     figure = style.new_figure(9.6, 7.6)
     panels = figure.subplots(2, 2)
@@ -58,9 +45,8 @@ def draw(path, lines, contacts):
                       label=f"$a/b$ = {one:g}")
             axes.plot(creepage[::4], direct[here][::4], linestyle="none", marker="o",
                       markersize=3.6, markerfacecolor="none", markeredgecolor=look.colour)
-        axes.set_xlabel("longitudinal creepage in 0.1 %")
-        axes.set_ylabel(name)
-    style.title(panels.flat[0], "lines: looked up linearly; circles: solved")
+        axes.set(xlabel="longitudinal creepage in 0.1 %", ylabel=name)
+    panels.flat[0].set_title("lines: looked up linearly; circles: solved")
     panels.flat[0].legend()
     axes = panels.flat[3]
     share = 100.0 * (1.0 - np.arange(contacts.numbers("mu").size) / contacts.numbers("mu").size)
@@ -70,12 +56,10 @@ def draw(path, lines, contacts):
                         color=look.colour, linestyle=line,
                         label=f"{name}, {'linear' if line == '-' else 'cubic'}")
     axes.axhline(1.0, color=style.GREY, linewidth=0.8)
-    axes.set_xlim(left=1e-3)
-    axes.set_xlabel("error in %")
-    axes.set_ylabel("fresh contacts with a larger one, %")
-    style.title(axes, f"{share.size} fresh contacts")
+    axes.set(xlim=(1e-3, None), xlabel="error in %", ylabel="fresh contacts with a larger one, %",
+             title=f"{share.size} fresh contacts")
     axes.legend(fontsize=style.SMALL)
-    style.save(figure, path, [revision(lines), revision(contacts)])
+    return figure, ""
 
 
 if __name__ == "__main__":

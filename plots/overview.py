@@ -3,27 +3,15 @@
 
 import sys
 
-from faststrip_plots import command, panels, references, style
+from faststrip_plots import command, panels, picture, references, style
 from faststrip_plots.results import read_field, read_reference, read_strips, read_sweep
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--shift", type=float, default=0.0, metavar="MM",
-                        help="lateral shift of the upper panels")
-    parser.add_argument("--strips", metavar="CSV",
-                        help="strips of the contact (default: out/strips_shift_MM.csv)")
-    parser.add_argument("--fields", metavar="CSV",
-                        help="fields of the contact (default: out/fields_shift_MM.csv)")
-    parser.add_argument("--contact", metavar="CSV", help="CONTACT's field of the same contact"
-                        " (default: reference/contact/fields/shift_MM_B.csv if there is one)")
-    parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
-                        help="what `faststrip sweep` wrote")
-    parser.add_argument("--reference", default=references.REFERENCE, metavar="CSV",
-                        help="the same sweep by full CONTACT")
-    parser.add_argument("-o", "--output", default="out/overview.png", metavar="PNG",
-                        help="picture to write")
-    options = parser.parse_args(arguments)
+    options = command.options(
+        __doc__, arguments, {**command.STRIPS, **command.FIELDS, **references.FIELD,
+                             **command.SWEEP, **references.SWEEP},
+        command.png("out/overview.png"), more=command.shift("lateral shift of the upper panels"))
     strips = read_strips(options.strips or command.shift_file("strips", options.shift))
     field = read_field(options.fields or command.shift_file("fields", options.shift))
     contact = references.contact_file(options.contact, options.shift)
@@ -35,20 +23,19 @@ def main(arguments=None):
     figure = style.new_figure(11.0, 6.8)
     (outlines, pressure), (pmax, force) = figure.subplots(2, 2, height_ratios=[0.72, 1.0])
     panels.draw_outlines(outlines, strips, panels.hertz_ellipse(sweep, options.shift), contact)
-    style.title(outlines, f"Contact patch, lateral shift {style.number(options.shift)} mm")
+    outlines.set_title(f"Contact patch, lateral shift {style.number(options.shift)} mm")
     mappable = panels.draw_strip_pressure(
         pressure, strips, field, max(p.max() for p in field.pressure)
     )
     panels.share_limits(outlines, pressure)
-    style.title(pressure, "Pressure by strips")
+    pressure.set_title("Pressure by strips")
     figure.colorbar(mappable, ax=pressure, label="MPa", shrink=0.8, pad=0.02, panchor=False)
     panels.draw_value(pmax, sweep, reference, "pmax")
     panels.draw_value(force, sweep, reference, "Fx")
     for axes in (pmax, force):
         axes.set_xlabel(panels.SHIFT_LABEL)
     style.legend_above(figure, force)
-    style.save(figure, options.output, [strips.stamp, field.stamp, sweep.stamp])
-    print(options.output)
+    picture.save(figure, options.output, [strips.stamp, field.stamp, sweep.stamp])
 
 
 if __name__ == "__main__":

@@ -4,28 +4,36 @@
 Beside the list go its narrow form for print, NAME_short.csv, and tables.csv, which announces that.
 """
 
-import csv
 import os
 import sys
 from collections import Counter
 
 from faststrip_plots import command, paper_figures, statements
 from faststrip_plots.curves import read_curves
+from faststrip_plots.document import announce, write_rows
 from faststrip_plots.results import read_reference, read_strips, read_sweeps
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots.tables import read_table
 
 FOLDER = "out/paper"
-INPUTS = {
-    "curves": ("curves.csv", "what `faststrip table --curves` wrote"),
-    "audit": ("audit.csv", "what `faststrip table --audit` wrote"),
-    "errata": ("errata.csv", "what `faststrip-lab errata` wrote"),
-    "sweep-a": ("sweep_A.csv", "sweeps of Table 2, signs as printed, by more methods each"),
-    "sweep-b": ("sweep_B.csv", "sweeps of Table 2, signs of the motion"),
-    "fine": ("sweep_fine.csv", "sweeps in fine steps"),
-    "bench-integral": ("bench_integral.csv", "what `faststrip-lab bench integral` wrote"),
-    "bench-normal": ("bench_normal.csv", "what `faststrip-lab bench normal` wrote"),
+FILES = {
+    "curves": (f"{FOLDER}/curves.csv", "what `faststrip table --curves` wrote"),
+    "audit": (f"{FOLDER}/audit.csv", "what `faststrip table --audit` wrote"),
+    "errata": (f"{FOLDER}/errata.csv", "what `faststrip-lab errata` wrote"),
+    "bench-integral": (f"{FOLDER}/bench_integral.csv", "what `faststrip-lab bench integral` wrote"),
+    "bench-normal": (f"{FOLDER}/bench_normal.csv", "what `faststrip-lab bench normal` wrote"),
+    "bench-reference": (None, "what `faststrip-lab bench reference` wrote"),
+    "reference-a": ("reference/contact/s1002_uic60_A.csv",
+                    "sweep A by full CONTACT, with its times"),
+    "reference-b": ("reference/contact/s1002_uic60_B.csv", "sweep B by full CONTACT"),
+    "table2": ("reference/paper/table2.csv", "the paper's Table 2"),
 }
-SWEEPS = ("sweep-a", "sweep-b", "fine")  # of which several files may be given
+# Of which several files may be given.
+SWEEPS = {
+    "sweep-a": (f"{FOLDER}/sweep_A.csv",
+                "sweeps of Table 2, signs as printed, by more methods each"),
+    "sweep-b": (f"{FOLDER}/sweep_B.csv", "sweeps of Table 2, signs of the motion"),
+    "fine": (f"{FOLDER}/sweep_fine.csv", "sweeps in fine steps"),
+}
 SHORT = ("id", "statement", "of", "measured", "criterion", "verdict")
 TABLES = {
     "audit": ("n", "max_rel_err", "rms_rel_err", "residual_max", "misprint", "rel_err_below",
@@ -38,37 +46,24 @@ TABLES = {
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    for name, (file, words) in INPUTS.items():
-        several = {"nargs": "+"} if name in SWEEPS else {}
-        default = [f"{FOLDER}/{file}"] if several else f"{FOLDER}/{file}"
-        parser.add_argument(f"--{name}", default=default, metavar="CSV", help=words, **several)
-    parser.add_argument("--bench-reference", metavar="CSV",
-                        help="what `faststrip-lab bench reference` wrote")
-    parser.add_argument("--strips", nargs="*", default=[], metavar="CSV",
-                        help="what `faststrip contact --strips` wrote, for the range of b")
-    parser.add_argument("--reference-a", default="reference/contact/s1002_uic60_A.csv",
-                        metavar="CSV", help="sweep A by full CONTACT, with its times")
-    parser.add_argument("--reference-b", default="reference/contact/s1002_uic60_B.csv",
-                        metavar="CSV", help="sweep B by full CONTACT")
-    parser.add_argument("--table2", default="reference/paper/table2.csv", metavar="CSV",
-                        help="the paper's Table 2")
-    parser.add_argument("--mu", type=command.friction, default=0.3, metavar="MU",
-                        help="coefficient of friction of the sweeps")
-    parser.add_argument("-o", "--output", default=f"{FOLDER}/paper_statements.csv", metavar="CSV",
-                        help="list to write")
-    options = parser.parse_args(arguments)
+    several = {name: dict(nargs="+", default=[default], metavar="CSV", help=words)
+               for name, (default, words) in SWEEPS.items()}
+    options = command.options(
+        __doc__, arguments, FILES,
+        (f"{FOLDER}/paper_statements.csv", "CSV", "list to write"),
+        more={**several, "strips": dict(
+            nargs="*", default=[], metavar="CSV",
+            help="what `faststrip contact --strips` wrote, for the range of b"),
+            **command.friction("coefficient of friction of the sweeps")})
     rows = statements.all_statements(read(options))
     write(options.output, rows)
     short = os.path.splitext(options.output)[0] + "_short.csv"
-    write_cells(short, SHORT, [short_cells(row) for row in rows])
-    write_cells(os.path.join(os.path.dirname(options.output), "tables.csv"),
-                ("file", "title", "caption", "chapter"),
-                [(os.path.basename(short), "The paper's statements, tested",
-                  "Statements in our words, judged on the paper's own method where they speak of"
-                  " FASTSTRIP; criteria are ours; verdicts follow from the figures. "
-                  + counted(rows) + ".",
-                  paper_figures.CHAPTER)])
+    write_rows(short, SHORT, [short_cells(row) for row in rows])
+    announce(os.path.dirname(options.output), "tables.csv", [
+        (os.path.basename(short), "The paper's statements, tested",
+         "Statements in our words, judged on the paper's own method where they speak of FASTSTRIP;"
+         f" criteria are ours; verdicts follow from the figures. {counted(rows)}.",
+         paper_figures.CHAPTER)])
     print(counted(rows))
     print(options.output)
 
@@ -125,22 +120,11 @@ def short_cells(row):
 
 def write(path, rows):
     """The whole list as CSV, figures with six digits."""
-    write_cells(path, statements.COLUMNS, [
+    write_rows(path, statements.COLUMNS, [
         ["" if value is None else f"{value:.6g}" if isinstance(value, float) else value
          for value in (getattr(row, name) for name in statements.COLUMNS)]
         for row in rows
     ])
-
-
-def write_cells(path, names, rows):
-    try:
-        os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
-        with open(path, "w", encoding="utf-8", newline="") as stream:
-            writer = csv.writer(stream, lineterminator="\n")
-            writer.writerow(names)
-            writer.writerows(rows)
-    except OSError as error:
-        raise InputError(f"cannot write: {path} ({os.strerror(error.errno)})") from None
 
 
 if __name__ == "__main__":

@@ -3,30 +3,23 @@
 
 import sys
 
-from faststrip_plots import command, panels, references, style
+from faststrip_plots import command, panels, picture, references, style
 from faststrip_plots.results import read_field, read_strips, read_sweep
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--shift", type=float, default=0.0, metavar="MM",
-                        help="lateral shift of the wheel, for titles, row of the sweep and files")
-    parser.add_argument("--strips", metavar="CSV",
-                        help="strips of the contact (default: out/strips_shift_MM.csv)")
-    parser.add_argument("--fields", metavar="CSV",
-                        help="fields of the contact (default: out/fields_shift_MM.csv)")
-    parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
-                        help="sweep with the Hertz result of the shift")
-    parser.add_argument("--contact", metavar="CSV",
-                        help="CONTACT's field of the same contact"
-                        " (default: reference/contact/fields/shift_MM_B.csv if there is one)")
-    parser.add_argument("--no-contact", action="store_true", help="draw without CONTACT")
-    parser.add_argument("--norm", metavar="CSV", help="fields of the contact by NORM, for the cuts")
-    parser.add_argument("--outlines", metavar="PNG",
-                        help="picture of the outlines (default: out/patch_shift_MM.png)")
-    parser.add_argument("--pressure", metavar="PNG",
-                        help="picture of the pressures (default: out/pressure_shift_MM.png)")
-    options = parser.parse_args(arguments)
+    options = command.options(
+        __doc__, arguments, {
+            **command.STRIPS, **command.FIELDS, **references.FIELD,
+            "sweep": (command.SWEEP["sweep"][0], "sweep with the Hertz result of the shift"),
+            "norm": (None, "fields of the contact by NORM, for the cuts")},
+        more={**command.shift(
+                  "lateral shift of the wheel, for titles, row of the sweep and files"),
+              "no-contact": dict(action="store_true", help="draw without CONTACT"),
+              "outlines": dict(metavar="PNG", help="picture of the outlines (default:"
+                               " out/patch_shift_MM.png)"),
+              "pressure": dict(metavar="PNG", help="picture of the pressures (default:"
+                               " out/pressure_shift_MM.png)")})
     strips = read_strips(options.strips or command.shift_file("strips", options.shift))
     field = read_field(options.fields or command.shift_file("fields", options.shift))
     sweep = read_sweep(options.sweep)
@@ -44,8 +37,7 @@ def main(arguments=None):
             pressure_figure(options.shift, strips, field, ellipse, contact, norm),
     }
     for path, figure in pictures.items():
-        style.save(figure, path, [strips.stamp, field.stamp, sweep.stamp])
-        print(path)
+        picture.save(figure, path, [strips.stamp, field.stamp, sweep.stamp])
 
 
 def outline_figure(shift, strips, ellipse, contact):
@@ -53,7 +45,7 @@ def outline_figure(shift, strips, ellipse, contact):
     figure = style.new_figure(8.0, 5.4)
     axes = figure.subplots()
     panels.draw_outlines(axes, strips, ellipse, contact)
-    style.title(axes, f"Contact patch, lateral shift {style.number(shift)} mm")
+    axes.set_title(f"Contact patch, lateral shift {style.number(shift)} mm")
     style.fit_panel(figure, axes, 7.4, 5.4)
     style.legend_above(figure, axes)
     return figure
@@ -65,21 +57,21 @@ def pressure_figure(shift, strips, field, ellipse, contact, norm=None):
     figure = style.new_figure(11.0, 7.4)
     (left, right), (along_y, along_x) = figure.subplots(2, 2)
     mappable = panels.draw_strip_pressure(left, strips, field, top)
-    style.title(left, f"Strips, lateral shift {style.number(shift)} mm")
+    left.set_title(f"Strips, lateral shift {style.number(shift)} mm")
     if contact is None:
         panels.draw_outlines(right, strips, ellipse)
-        style.title(right, "Outlines")
+        right.set_title("Outlines")
     else:
         panels.draw_grid_pressure(right, contact, top)
-        style.title(right, "CONTACT")
+        right.set_title("CONTACT")
     panels.share_limits(left, right)
     figure.colorbar(mappable, ax=[left, right], label="pressure, MPa", shrink=0.9, pad=0.015,
                     panchor=False)
     panels.draw_cut_along_y(along_y, strips, ellipse, contact, norm)
-    style.title(along_y, "Cut along $y$ at $x$ = 0")
+    along_y.set_title("Cut along $y$ at $x$ = 0")
     y = panels.draw_cut_along_x(along_x, strips, field, ellipse, contact, norm)
     where = style.number(round(y, 2))
-    style.title(along_x, f"Cut along $x$ at $y$ = {where} mm, the strongest strip")
+    along_x.set_title(f"Cut along $x$ at $y$ = {where} mm, the strongest strip")
     style.legend_above(figure, along_y, along_x)
     return figure
 

@@ -19,6 +19,7 @@ from faststrip_plots.results import (
     read_gap,
     read_strips,
     read_sweep,
+    revision,
 )
 from faststrip_plots.tables import InputError, read_table
 
@@ -28,7 +29,8 @@ def main(arguments=None):
     ending = os.path.splitext(path)[1].lower()
     unfinished = f"{os.path.splitext(path)[0]}.unfinished_{os.getpid()}{ending}"
     try:
-        PICTURES[name](lambda file: os.path.join(folder, file), unfinished)
+        figure, stamps, note = PICTURES[name](lambda file: os.path.join(folder, file))
+        style.save(figure, unfinished, stamps, note)
         os.replace(unfinished, path)
     except OSError as error:
         raise InputError(f"cannot write: {path} ({os.strerror(error.errno)})") from None
@@ -37,7 +39,7 @@ def main(arguments=None):
             os.remove(unfinished)
 
 
-def draw_contact(file, path):
+def draw_contact(file):
     """The gap, the patch, and the pressure across it."""
     table = read_table(file("result.csv"), ("status", "pmax_MPa", "penetration_mm"))
     gap, strips = read_gap(file("gap.csv")), read_strips(file("strips.csv"))
@@ -48,20 +50,19 @@ def draw_contact(file, path):
     near = gap.y[gap.h <= least + 4.0 * max(penetration, 1e-3)]
     space.plot(gap.y, gap.h, color="#0b3c78", linewidth=2.0, label="undeformed distance")
     space.axhline(penetration, color=style.GREY, linewidth=1.2, label="penetration")
-    space.set_xlim(near.min(), near.max())
-    space.set_ylim(min(least, 0.0), least + 4.0 * max(penetration, 1e-3))
-    space.set_xlabel("lateral $y$, mm")
-    space.set_ylabel("distance, mm")
+    space.set(xlim=(near.min(), near.max()),
+              ylim=(min(least, 0.0), least + 4.0 * max(penetration, 1e-3)),
+              xlabel="lateral $y$, mm", ylabel="distance, mm")
     space.legend()
-    style.title(space, words_of(table))
+    space.set_title(words_of(table))
     if strips.patches:
         panels.draw_outlines(patch, strips)
         panels.draw_cut_along_y(pressure, strips)
         for axes in (patch, pressure):
             axes.set_xlim(space.get_xlim())
-    style.title(patch, "contact patch")
-    style.title(pressure, "pressure on its centre line")
-    style.save(figure, path, [strips.stamp])
+    patch.set_title("contact patch")
+    pressure.set_title("pressure on its centre line")
+    return figure, [strips.stamp], ""
 
 
 def words_of(table):
@@ -75,7 +76,7 @@ def words_of(table):
     return f"{table.words('status')[0]}: {', '.join(figures)}"
 
 
-def draw_sweep(file, path):
+def draw_sweep(file):
     """All figures over the shift."""
     quantities = NORMAL_QUANTITIES + TANGENTIAL_QUANTITIES
     result = read_sweep(file("result.csv"))
@@ -86,21 +87,25 @@ def draw_sweep(file, path):
     for axes in grid[-1]:
         axes.set_xlabel(panels.SHIFT_LABEL)
     style.legend_above(figure, *grid.flat)
-    style.save(figure, path, [result.stamp])
+    return figure, [result.stamp], ""
 
 
-def draw_wheelset(file, path):
+def draw_wheelset(file):
     """Both wheels on the track in one state."""
     result = read_table(file("result.csv"), wheelset.RESULT).where("solution", ("", "1"))
-    wheelset.draw_track(path, result, read_table(file("profiles.csv"), wheelset.PROFILES))
+    profiles = read_table(file("profiles.csv"), wheelset.PROFILES)
+    figure, note = wheelset.draw_track(result, profiles)
+    return figure, [revision(result), revision(profiles)], note
 
 
-def draw_conicity(file, path):
+def draw_conicity(file):
     """Geometry over the shift, if there is any, and conicity over the amplitude."""
     functions = None
     if os.path.exists(file("functions.csv")):
         functions = read_table(file("functions.csv"), conicity.FUNCTIONS)
-    conicity.draw(path, functions, read_table(file("result.csv"), conicity.CONICITY))
+    table = read_table(file("result.csv"), conicity.CONICITY)
+    figure, note = conicity.draw(functions, table)
+    return figure, [functions and revision(functions), revision(table)], note
 
 
 PICTURES = {"contact": draw_contact, "sweep": draw_sweep, "wheelset": draw_wheelset,

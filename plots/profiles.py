@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 
-from faststrip_plots import command, panels, style
+from faststrip_plots import command, panels, picture, style
 from faststrip_plots.results import read_gap, read_profiles
 from faststrip_plots.tables import InputError
 
@@ -13,18 +13,13 @@ RED = "#c03010"  # the contact point
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--shift", type=float, default=0.0, metavar="MM",
-                        help="lateral shift of the wheel, for the title and the default files")
-    parser.add_argument("--profiles", metavar="CSV", help="columns body,y_mm,z_mm"
-                        " (default: out/profiles_shift_MM.csv)")
-    parser.add_argument("--gap", metavar="CSV",
-                        help="also draw the gap in the frame of the contact: columns y_mm,h_mm")
-    parser.add_argument("--top", type=float, default=1.0, metavar="MM",
-                        help="largest distance shown")
-    parser.add_argument("-o", "--output", metavar="PNG",
-                        help="picture to write (default: out/profiles_shift_MM.png)")
-    options = parser.parse_args(arguments)
+    options = command.options(
+        __doc__, arguments, {
+            "profiles": (None, "columns body,y_mm,z_mm (default: out/profiles_shift_MM.csv)"),
+            "gap": (None, "also draw the gap in the frame of the contact: columns y_mm,h_mm")},
+        (None, "PNG", "picture to write (default: out/profiles_shift_MM.png)"),
+        more={**command.shift("lateral shift of the wheel, for the title and the default files"),
+              "top": dict(type=float, default=1.0, metavar="MM", help="largest distance shown")})
     path = options.profiles or command.shift_file("profiles", options.shift)
     profiles = read_profiles(path)
     gap = read_gap(options.gap) if options.gap else None
@@ -41,7 +36,7 @@ def main(arguments=None):
     point = contact, float(np.interp(contact, wheel[:, 0], wheel[:, 1]))
     upper.plot(*point, marker="o", markersize=9, markerfacecolor="none", markeredgecolor=RED,
                markeredgewidth=1.8, linestyle="none", zorder=5)
-    style.title(upper, f"Profiles in contact, lateral shift {style.number(options.shift)} mm"
+    upper.set_title(f"Profiles in contact, lateral shift {style.number(options.shift)} mm"
                 " (ring: contact point)")
 
     lower.axvline(0.0, color=RED, linewidth=1.2, zorder=1)
@@ -54,14 +49,11 @@ def main(arguments=None):
         near = np.concatenate([near, gap.y[gap.h <= options.top]])
         lower.legend(loc="lower right", bbox_to_anchor=(1.0, 0.99), ncols=2, borderaxespad=0.2,
                      handlelength=2.6, columnspacing=1.6)
-    lower.set_xlim(near.min() - 1.0, near.max() + 1.0)
-    lower.set_ylim(0.0, options.top)
-    lower.set_xlabel("lateral distance from the contact point, mm")
-    lower.set_ylabel("undeformed distance, mm")
-    style.title(lower, "Distance wheel to rail")
+    lower.set(xlim=(near.min() - 1.0, near.max() + 1.0), ylim=(0.0, options.top),
+              xlabel="lateral distance from the contact point, mm",
+              ylabel="undeformed distance, mm", title="Distance wheel to rail")
     output = options.output or command.shift_file("profiles", options.shift)[:-3] + "png"
-    style.save(figure, output, [profiles.stamp, gap and gap.stamp])
-    print(output)
+    picture.save(figure, output, [profiles.stamp, gap and gap.stamp])
 
 
 if __name__ == "__main__":

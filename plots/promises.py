@@ -1,16 +1,14 @@
 #!/usr/bin/env python3
 """Draw promises of auto against the truth, estimates against errors, and errors against time."""
 
-import csv
-import io
 import os
 import sys
 
 import numpy as np
-from matplotlib.ticker import NullFormatter, NullLocator
+from matplotlib.ticker import NullLocator
 
-from faststrip_plots import command, style
-from faststrip_plots.document import write_text
+from faststrip_plots import command, picture, style
+from faststrip_plots.document import announce
 from faststrip_plots.promises import (
     TARGETS,
     UPPER,
@@ -54,16 +52,11 @@ WIDTH = 0.36  # of a column of contacts, of the distance of tolerances
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--results", default="out/promises.csv", metavar="CSV",
-                        help="what `faststrip-lab promises` wrote")
-    parser.add_argument("--truth", default="reference/promises/truth.csv", metavar="CSV",
-                        help="what `faststrip-lab truth` wrote")
-    parser.add_argument("--methods", default="reference/promises/methods.csv", metavar="CSV",
-                        help="the methods that were asked for")
-    parser.add_argument("--folder", default="out/promises", metavar="FOLDER",
-                        help="pictures go there")
-    options = parser.parse_args(arguments)
+    options = command.options(__doc__, arguments, {
+        "results": ("out/promises.csv", "what `faststrip-lab promises` wrote"),
+        "truth": ("reference/promises/truth.csv", "what `faststrip-lab truth` wrote"),
+        "methods": ("reference/promises/methods.csv", "the methods that were asked for")},
+        folder=("out/promises", "pictures go there"))
     judged = Judged(options.results, options.truth, options.methods)
     stamps = [revision(judged.table)]
     count = f"{len(judged)} contacts of kinds that nothing was fitted to"
@@ -82,20 +75,9 @@ def main(arguments=None):
     for figure, name, heading, caption in pictures:
         if figure is None:
             continue
-        path = os.path.join(options.folder, name)
-        style.save(figure, path, stamps, count)
-        print(path)
+        picture.save(figure, os.path.join(options.folder, name), stamps, count)
         rows.append((name, heading, caption, "auto"))
-    write_rows(os.path.join(options.folder, "figures.csv"),
-               ("file", "title", "caption", "chapter"), rows)
-
-
-def write_rows(path, header, rows):
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
-    write_text(path, stream.getvalue())
+    announce(options.folder, "figures.csv", rows)
 
 
 def promises_figure(judged):
@@ -138,15 +120,13 @@ def draw_promises(axes, solved, target, shares):
         row = shares[target, tolerance]
         axes.annotate(f"{row['kept']} of {row['promised']}", (place, MOST), ha="center", va="top",
                       fontsize=style.SMALL, color="#111111")
-    axes.set_yscale("log")
-    axes.set_ylim(LEAST, 1.2 * MOST)
-    axes.set_xlim(-0.6, len(solved) - 0.4)
+    axes.set(yscale="log", ylim=(LEAST, 1.2 * MOST), xlim=(-0.6, len(solved) - 0.4))
     axes.set_xticks(range(len(solved)),
                     [f"{100.0 * each.method.tolerance:g} %" for each in solved])
     axes.xaxis.set_minor_locator(NullLocator())
     axes.set_xlabel("tolerance; above: promises kept of those given")
     axes.yaxis.set_major_formatter("{x:g}")
-    style.title(axes, HEADINGS[target])
+    axes.set_title(HEADINGS[target])
 
 
 def estimates_figure(judged):
@@ -168,11 +148,9 @@ def estimates_figure(judged):
                   label="estimate = error")
         axes.plot([LEAST, MOST], [0.2 * LEAST, 0.2 * MOST], color="#111111", linewidth=1.0,
                   linestyle=(0, (4, 2)), zorder=4, label="five times the error")
-        log_axes(axes)
-        axes.set_xlim(LEAST, MOST)
-        axes.set_ylim(LEAST, MOST)
-        axes.set_xlabel(f"estimated error, % of {unit}")
-        style.title(axes, symbol)
+        style.log_axes(axes)
+        axes.set(xlim=(LEAST, MOST), ylim=(LEAST, MOST), xlabel=f"estimated error, % of {unit}",
+                 title=symbol)
     panels[0].set_ylabel("true error, %")
     style.legend_above(figure, panels[0])
     for handle in figure.legends[0].legend_handles[:-2]:
@@ -206,11 +184,10 @@ def front_figure(judged):
         best = front(points)
         axes.step(*zip(*best), where="post", color=style.GREY, linewidth=1.0, zorder=2,
                   label="nothing is better in both")
-        log_axes(axes)
-        axes.set_xlabel("median time of a contact, µs")
-        style.title(axes, f"{heading}; no step of time above {largest_gap(points):.1f}")
-    panels[0].set_ylim(FRONT_LEAST, FRONT_MOST)
-    panels[0].set_ylabel("error of forces and moment, %")
+        style.log_axes(axes)
+        axes.set(xlabel="median time of a contact, µs",
+                 title=f"{heading}; no step of time above {largest_gap(points):.1f}")
+    panels[0].set(ylim=(FRONT_LEAST, FRONT_MOST), ylabel="error of forces and moment, %")
     style.legend_above(figure, panels[0])
     return figure
 
@@ -229,15 +206,6 @@ def family(name):
         if " ".join(words).startswith(begin):
             return look
     return name, style.GREY, "x"
-
-
-def log_axes(axes):
-    """Logarithmic both, with plain numbers."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter("{x:g}")
-        axis.set_minor_formatter(NullFormatter())
 
 
 if __name__ == "__main__":

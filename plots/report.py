@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
 """Judge the figures of a report's data folder and write report.md, report.html, verdicts.csv."""
 
-import csv
 import glob
-import io
 import math
 import os
 import sys
 
 from faststrip_plots import command
-from faststrip_plots.document import Document, write_text
+from faststrip_plots.document import ANNOUNCED, Document, write_rows, write_text
 from faststrip_plots.results import revision
 from faststrip_plots.stamps import History, stamp_of, stored_files
 from faststrip_plots.tables import InputError, read_table
@@ -18,6 +16,8 @@ from faststrip_plots.verdicts import CHAPTERS, judge, read_manifest, shown, show
 # Pictures and tables of commands that announce none themselves.
 LIST = "reference/report_figures.csv"
 STORED = "reference/stored.csv"
+VERDICTS = ("id", "chapter", "value", "tolerance", "rows", "verdict", "remark", "value_shown",
+            "tolerance_shown")
 
 # Chapters after the verdicts, with what introduces them; pictures and tables say where they go.
 CHAPTER_TEXTS = {
@@ -31,14 +31,13 @@ CHAPTER_TEXTS = {
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--folder", default="out/report", metavar="FOLDER",
-                        help="the report's folder; its CSV files stand in data/")
-    parser.add_argument("--manifest", default="reference/comparisons.csv", metavar="CSV",
-                        help="what is compared with what, and how closely it has to agree")
-    parser.add_argument("--quick", action="store_true",
-                        help="comparisons whose file is missing are left out, not failed")
-    options = parser.parse_args(arguments)
+    options = command.options(
+        __doc__, arguments, {"manifest": (
+            "reference/comparisons.csv",
+            "what is compared with what, and how closely it has to agree")},
+        folder=("out/report", "the report's folder; its CSV files stand in data/"),
+        more={"quick": dict(action="store_true", help="comparisons whose file is missing are left"
+                            " out, not failed")})
     data = os.path.join(options.folder, "data")
     verdicts = [judge(row, data) for row in read_manifest(options.manifest)]
     left_out = 0
@@ -49,7 +48,7 @@ def main(arguments=None):
     if not verdicts:
         raise InputError(f"nothing to judge: {options.manifest}")
     document = build(verdicts, left_out, options.folder)
-    write_text(os.path.join(options.folder, "verdicts.csv"), verdict_csv(verdicts))
+    write_rows(os.path.join(options.folder, "verdicts.csv"), VERDICTS, map(verdict_row, verdicts))
     write_text(os.path.join(options.folder, "report.md"), document.markdown(options.folder))
     write_text(os.path.join(options.folder, "report.html"), document.page())
     failed = [v for v in verdicts if not v.good]
@@ -114,8 +113,9 @@ def stamp(folder):
     """Revision, compiler, flags and processor, from the comments of the files themselves."""
     lines = []
     for path in sorted(glob.glob(os.path.join(folder, "data", "*.csv"))):
-        table = read_table(path) if has_rows(path) else None
-        if table is None:
+        try:
+            table = read_table(path)
+        except InputError:  # no rows
             continue
         for comment in [revision(table)] + [c for c in table.comments if c.startswith("compiler")]:
             if comment and comment not in lines:
@@ -136,14 +136,6 @@ def processor():
     return "not known"
 
 
-def has_rows(path):
-    try:
-        read_table(path)
-    except InputError:
-        return False
-    return True
-
-
 def verdict_cells(verdict):
     row = verdict.row
     return (row["id"], row["quantity"], row["method"] or "–", row["metric"], str(verdict.rows),
@@ -151,16 +143,10 @@ def verdict_cells(verdict):
             verdict.word + (f" ({verdict.remark})" if verdict.remark else ""), row["source"])
 
 
-def verdict_csv(verdicts):
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(("id", "chapter", "value", "tolerance", "rows", "verdict", "remark",
-                     "value_shown", "tolerance_shown"))
-    for v in verdicts:
-        value = "" if math.isnan(v.value) else repr(v.value)
-        writer.writerow((v.row["id"], v.row["chapter"], value, v.row["tolerance"], v.rows, v.word,
-                         v.remark, shown(v.row, v.value), shown_tolerance(v.row)))
-    return stream.getvalue()
+def verdict_row(v):
+    value = "" if math.isnan(v.value) else repr(v.value)
+    return (v.row["id"], v.row["chapter"], value, v.row["tolerance"], v.rows, v.word, v.remark,
+            shown(v.row, v.value), shown_tolerance(v.row))
 
 
 def read_pictures(folder):
@@ -197,10 +183,9 @@ def announced(folder, name):
 def listed(path, folder, must_be_there):
     """The entries of one list; files are named as seen from a folder."""
     found = []
-    names = ("file", "title", "caption", "chapter")
-    table = read_table(path, names)
+    table = read_table(path, ANNOUNCED)
     for k, line in enumerate(table.lines):
-        entry = {name: table.words(name)[k] for name in names}
+        entry = {name: table.words(name)[k] for name in ANNOUNCED}
         entry["path"] = entry["file"]
         if not entry["file"].startswith("reference/"):
             entry["path"] = os.path.join(folder, entry["file"])

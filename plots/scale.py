@@ -5,38 +5,31 @@ import sys
 
 import numpy as np
 
-from faststrip_plots import command, style
-from faststrip_plots.results import revision
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots import command, picture, style
+from faststrip_plots.tables import InputError
 
-SCALE = "out/scale.csv"
 COLOUR = "#0b3c78"
 NUMBERS = ("contacts", "processes", "threads", "contacts_per_core_s", "efficiency", "peak_MB",
            "bytes_per_contact")
 
 
-def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--scale", default=SCALE, metavar="CSV", help="what `./run scale` wrote")
-    parser.add_argument("-o", "--output", default="out/scale.png", metavar="PNG",
-                        help="picture to write")
-    options = parser.parse_args(arguments)
-    table = read_table(options.scale, ("group", "what", *NUMBERS))
+@picture.command(__doc__, "out/scale.png", scale=(
+    "out/scale.csv", "what `./run scale` wrote", ("group", "what", *NUMBERS)))
+def main(table):
     numbers = {name: table.positive(name, missing=True) for name in NUMBERS}
 
     def rows(*groups, name):
         found = [row for row, group in enumerate(table.words("group"))
                  if group in groups and not np.isnan(numbers[name][row])]
         if not found:
-            raise InputError(f"no {name} of {' or '.join(groups)} ({options.scale})")
+            raise InputError(f"no {name} of {' or '.join(groups)} ({table.path})")
         return found
 
     what = table.words("what")
     figure = style.new_figure(10.4, 7.0)
     (rate, share), (memory, size) = figure.subplots(2, 2)
     bars(rate, numbers["contacts_per_core_s"], rows("method", name="contacts_per_core_s"), what)
-    rate.set_xscale("log")
-    rate.set_xlabel("contacts per second and core")
+    rate.set(xscale="log", xlabel="contacts per second and core")
     found = rows("threads", "parts", name="efficiency")
     ways = {row: f"{what[row]}, {way(numbers['processes'][row], numbers['threads'][row])}"
             for row in found}
@@ -46,14 +39,11 @@ def main(arguments=None):
     found = rows("memory", name="peak_MB")
     memory.plot(numbers["contacts"][found], numbers["peak_MB"][found], color=COLOUR,
                 marker="o", zorder=3)
-    memory.set_xscale("log")
-    memory.set_ylim(0.0, 1.25 * numbers["peak_MB"][found].max())
-    memory.set_xlabel("contacts")
-    memory.set_ylabel("peak memory, MB")
+    memory.set(xscale="log", ylim=(0.0, 1.25 * numbers["peak_MB"][found].max()), xlabel="contacts",
+               ylabel="peak memory, MB")
     bars(size, numbers["bytes_per_contact"], rows("format", name="bytes_per_contact"), what)
     size.set_xlabel("bytes per contact")
-    style.save(figure, options.output, [revision(table)], "rates by processor time")
-    print(options.output)
+    return figure, "rates by processor time"
 
 
 def way(processes, threads):
@@ -66,8 +56,7 @@ def way(processes, threads):
 def bars(axes, values, rows, names):
     """A bar with its number for each row, the first on top."""
     places = range(len(rows))
-    axes.barh(places, values[rows], height=0.62, zorder=3,
-              color=COLOUR)
+    axes.barh(places, values[rows], height=0.62, zorder=3, color=COLOUR)
     for place, row in zip(places, rows):
         axes.annotate(f"{values[row]:.0f}", (values[row], place), (4.0, 0.0),
                       textcoords="offset points", va="center", fontsize=style.SMALL)

@@ -5,23 +5,17 @@ import sys
 
 import numpy as np
 
-from faststrip_plots import command, style
-from faststrip_plots.results import revision
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots import command, picture, style
+from faststrip_plots.tables import InputError
 
-SPEED = "out/speed.csv"
 COLOURS = ("#0b3c78", "#a0306a", "#4d9748", "#f08519", "#5f4ba8", "#6b6b6b", "#b03a2e", "#111111",
            "#4b8f3c")
 
 
-def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--speed", default=SPEED, metavar="CSV", help="what `./run speed` wrote")
-    parser.add_argument("-o", "--output", default="out/speed.png", metavar="PNG",
-                        help="picture to write")
-    options = parser.parse_args(arguments)
-    table = read_table(options.speed, ("group", "what", "us_median", "us_p95", "us_worst",
-                                       "contact", "contact_us_median"))
+@picture.command(__doc__, "out/speed.png", speed=(
+    "out/speed.csv", "what `./run speed` wrote",
+    ("group", "what", "us_median", "us_p95", "us_worst", "contact", "contact_us_median")))
+def main(table):
     times = [table.numbers(f"us_{word}") for word in ("median", "p95", "worst")]
     peers = table.numbers("contact_us_median", missing=True)
     for name, values in (("us_median", times[0]), ("us_p95", times[1] - times[0]),
@@ -29,7 +23,7 @@ def main(arguments=None):
         least = np.nextafter(0.0, 1.0) if name == "us_median" else 0.0
         for row in np.flatnonzero(values < least):
             raise InputError(f"{name} must not be less than what stands before it, or not above"
-                             f" zero ({options.speed}:{table.lines[row]})")
+                             f" zero ({table.path}:{table.lines[row]})")
     groups = list(dict.fromkeys(table.words("group")))
     colours = {group: COLOURS[k % len(COLOURS)] for k, group in enumerate(groups)}
     places, names, at = [], [], 0.0
@@ -72,9 +66,7 @@ def main(arguments=None):
     axes.set_xlabel("processor time, µs")
     axes.grid(axis="y", visible=False)
     style.legend_above(figure, axes)
-    style.save(figure, options.output, [revision(table)],
-               "medians, 95th percentiles, worst; CONTACT's are of another machine")
-    print(options.output)
+    return figure, "medians, 95th percentiles, worst; CONTACT's are of another machine"
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
 import os
 import sys
 
-from faststrip_plots import command, panels, references, style
+from faststrip_plots import command, panels, picture, references, style
 from faststrip_plots.results import (
     NORMAL_QUANTITIES,
     TANGENTIAL_QUANTITIES,
@@ -14,18 +14,12 @@ from faststrip_plots.results import (
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--sweep", default=command.SWEEP, metavar="CSV",
-                        help="what `faststrip sweep` wrote")
-    parser.add_argument("--reference", default=references.REFERENCE, metavar="CSV",
-                        help="the same sweep by full CONTACT")
-    parser.add_argument("--no-reference", action="store_true",
-                        help="draw the sweep alone, without ratios and differences")
-    parser.add_argument("--mu", type=command.friction, default=0.3, metavar="MU",
-                        help="coefficient of friction, for differences in percent of mu N")
-    parser.add_argument("--folder", default="out", metavar="DIR",
-                        help="where sweep_normal.png and sweep_tangential.png go")
-    options = parser.parse_args(arguments)
+    options = command.options(
+        __doc__, arguments, {**command.SWEEP, **references.SWEEP},
+        folder=("out", "where sweep_normal.png and sweep_tangential.png go"),
+        more={"no-reference": dict(action="store_true", help="draw the sweep alone, without ratios"
+                                   " and differences"),
+              **command.friction("coefficient of friction, for differences in percent of mu N")})
     sweep = read_sweep(options.sweep)
     reference = None if options.no_reference else read_reference(options.reference)
     command.report_failures(sweep)
@@ -63,8 +57,7 @@ def draw(path, sweep, reference, mu, quantities, kinds):
                      " $\\mu\\cdot N c$")
     if beyond:
         notes.append("▲▼: beyond the axis")
-    style.save(figure, path, [sweep.stamp], "; ".join(notes))
-    print(path)
+    picture.save(figure, path, [sweep.stamp], "; ".join(notes))
 
 
 if __name__ == "__main__":

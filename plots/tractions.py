@@ -6,7 +6,7 @@ import sys
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from faststrip_plots import command, references, style
+from faststrip_plots import command, picture, references, style
 from faststrip_plots.results import revision
 from faststrip_plots.tables import InputError, read_table
 
@@ -16,17 +16,10 @@ ARROWS = 26  # across the longer side
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--shift", type=float, default=0.0, metavar="MM",
-                        help="lateral shift of the wheel, for titles and files")
-    parser.add_argument("--fields", metavar="CSV",
-                        help="fields of the contact (default: out/fields_shift_MM.csv)")
-    parser.add_argument("--contact", metavar="CSV",
-                        help="CONTACT's field of the same contact"
-                        " (default: reference/contact/fields/shift_MM_B.csv if there is one)")
-    parser.add_argument("-o", "--output", metavar="PNG",
-                        help="picture to write (default: out/tractions_shift_MM.png)")
-    options = parser.parse_args(arguments)
+    options = command.options(
+        __doc__, arguments, {**command.FIELDS, **references.FIELD},
+        (None, "PNG", "picture to write (default: out/tractions_shift_MM.png)"),
+        more=command.shift("lateral shift of the wheel, for titles and files"))
     own = read_table(options.fields or command.shift_file("fields", options.shift), COLUMNS)
     path = references.contact_file(options.contact, options.shift)
     if path is None:
@@ -40,8 +33,8 @@ def main(arguments=None):
     for column, (field, name) in enumerate(zip(fields, ("FASTSTRIP", "CONTACT"))):
         mesh = draw_traction(panels[0][column], field, largest)
         draw_state(panels[1][column], field)
-        style.title(panels[0][column], f"{name}: traction")
-        style.title(panels[1][column], f"{name}: stick dark, slip light")
+        panels[0][column].set_title(f"{name}: traction")
+        panels[1][column].set_title(f"{name}: stick dark, slip light")
     for axes in panels[1]:
         axes.set_xlabel("$y$, mm")
     for axes in panels[:, 0]:
@@ -49,9 +42,8 @@ def main(arguments=None):
     for axes in panels.flat:
         axes.set_aspect("equal")
     figure.colorbar(mesh, ax=panels, label="traction on the rail, MPa", shrink=0.6)
-    style.save(figure, output, [revision(own)],
-               f"lateral shift {style.number(options.shift)} mm")
-    print(output)
+    picture.save(figure, output, [revision(own)],
+                 f"lateral shift {style.number(options.shift)} mm")
 
 
 class Field:

@@ -1,17 +1,15 @@
 #!/usr/bin/env python3
 """Draw errors against time of every method and resolution, and tabulate which one to take."""
 
-import csv
-import io
 import os
 import sys
 
 import numpy as np
 
-from faststrip_plots import command
-from faststrip_plots.document import write_text
+from faststrip_plots import command, style
+from faststrip_plots.document import announce, write_dicts
+from faststrip_plots.promises import UPPER, upper
 from faststrip_plots.results import RESULTS, revision
-from faststrip_plots.style import legend_above, new_figure, save, title
 from faststrip_plots.tables import InputError, read_table
 
 FIGURES = ("penetration", "pmax", "area", "Fx", "Fy", "Mz")
@@ -49,16 +47,12 @@ LEAST = 1e-15  # and smaller ones, zero too, at the lower
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--trade", default="out/trade.csv", metavar="CSV",
-                        help="what `faststrip-lab bench trade` wrote")
-    parser.add_argument("--folder", default="out/trade", metavar="FOLDER",
-                        help="pictures and tables go there")
-    options = parser.parse_args(arguments)
+    options = command.options(
+        __doc__, arguments, {"trade": ("out/trade.csv", "what `faststrip-lab bench trade` wrote")},
+        folder=("out/trade", "pictures and tables go there"))
     table = read_table(options.trade, ("set", "stage", "method", "status", "us")
                        + tuple("err_" + name for name in FIGURES))
     points = summarize(table)
-    os.makedirs(options.folder, exist_ok=True)
     announced = []
     for stage, (heading, what) in STAGES.items():
         own = [point for point in points if point["stage"] == stage]
@@ -70,21 +64,15 @@ def main(arguments=None):
     fronts = normal_fronts(table)
     if fronts:
         draw_fronts(fronts, os.path.join(options.folder, "trade_front.png"), revision(table))
-        write_rows(os.path.join(options.folder, "trade_front.csv"), tuple(fronts[0]),
-                   [tuple(row.values()) for row in fronts])
+        write_dicts(os.path.join(options.folder, "trade_front.csv"), fronts)
         announced.append(("trade_front.png", "Normal methods of ours and of others",
                           f"Mean error against processor time without the gap's curve; line: the"
                           f" best of ours so far; stars: {' and '.join(PEERS)}, as written here"
                           f" from their authors' equations. {verdict(fronts)}", "trade"))
-    write_rows(os.path.join(options.folder, "figures.csv"),
-               ("file", "title", "caption", "chapter"), announced)
-    write_rows(os.path.join(options.folder, "trade_points.csv"), tuple(points[0]),
-               [tuple(point.values()) for point in points])
-    choice = choices(points)
-    write_rows(os.path.join(options.folder, "trade_choice.csv"), tuple(choice[0]),
-               [tuple(row.values()) for row in choice])
-    columns = ("file", "title", "caption", "chapter")
-    write_rows(os.path.join(options.folder, "tables.csv"), columns, [
+    announce(options.folder, "figures.csv", announced)
+    write_dicts(os.path.join(options.folder, "trade_points.csv"), points)
+    write_dicts(os.path.join(options.folder, "trade_choice.csv"), choices(points))
+    announce(options.folder, "tables.csv", [
         ("trade_choice.csv", "Which method to take",
          "The fastest whose mean error, over all contacts and figures of its stage, is within the"
          " target, with the median of its processor times; in brackets the same for the largest"
@@ -114,7 +102,7 @@ def summarize(table):
         # each figure counts alike: the worst figure of a contact is its error
         worst = np.nanmax(errors[np.ix_(known, solved)], axis=0)
         point |= {"us": float(np.median(us[solved])),
-                  "cpu_us_p95": float(np.quantile(us[solved], 0.95, method="inverted_cdf")),
+                  "cpu_us_p95": upper(us[solved], UPPER),
                   "cpu_us_worst": float(us[solved].max()), "mean": float(worst.mean()),
                   "max": float(worst.max())}
         for f, name in enumerate(FIGURES):
@@ -157,7 +145,7 @@ def normal_fronts(table):
                 continue
             row = {"set": name, "method": key, "peer": "yes" if key in PEERS else "no",
                    "contacts": int(mask.sum()), "us": float(np.median(times[mask])),
-                   "us_p95": float(np.quantile(times[mask], 0.95, method="inverted_cdf")),
+                   "us_p95": upper(times[mask], UPPER),
                    "us_worst": float(times[mask].max()),
                    "worst_case": table.words("case")[int(np.argmax(np.where(mask, times, -1)))],
                    "mean": float(errors[np.ix_(known, mask)].max(axis=0).mean())}
@@ -182,7 +170,7 @@ def verdict(fronts):
 
 def draw_fronts(rows, path, stamp):
     """One panel for each set of contacts, one curve for our best so far."""
-    figure = new_figure(11.5, 5.0)
+    figure = style.new_figure(11.5, 5.0)
     panels = figure.subplots(1, len(FRONT_SETS), sharex=True, sharey=True)
     for axes, (name, words) in zip(panels, FRONT_SETS.items()):
         points = [row for row in rows if row["set"] == name]
@@ -191,12 +179,7 @@ def draw_fronts(rows, path, stamp):
             axes.step([p["us"] for p in best] + [FRONT_US[1]],
                       [drawn(p["mean"]) for p in [*best, best[-1]]], where="post",
                       color="#333333", linewidth=1.0, zorder=1, label="the best of ours so far")
-        for kind, (colour, marker, _) in FAMILIES.items():
-            own = [p for p in points if family(p["method"]) == kind]
-            if own:
-                axes.plot([p["us"] for p in own], [drawn(p["mean"]) for p in own],
-                          linestyle="none", marker=marker, color=colour, markeredgecolor="white",
-                          markersize=11 if own[0]["peer"] == "yes" else 6.5, label=kind)
+        draw_families(axes, points, "mean")
         for point in points:
             if point not in best and point["peer"] == "no":
                 continue
@@ -204,14 +187,11 @@ def draw_fronts(rows, path, stamp):
             axes.annotate(shorter(point["method"]), (point["us"], drawn(point["mean"])),
                           xytext=(5, 5) if outside else (-5, -9), textcoords="offset points",
                           ha="left" if outside else "right", fontsize=7.5, color="#333333")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlim(0.5 * FRONT_US[0], FRONT_US[1])
-        axes.set_xlabel("processor time of a solution in µs, median over the contacts")
-        axes.set_ylabel("mean error of the worst figure in %")
-        title(axes, words)
-    legend_above(figure, *panels)
-    save(figure, path, [stamp], "")
+        axes.set(xscale="log", yscale="log", xlim=(0.5 * FRONT_US[0], FRONT_US[1]),
+                 xlabel="processor time of a solution in µs, median over the contacts",
+                 ylabel="mean error of the worst figure in %", title=words)
+    style.legend_above(figure, *panels)
+    style.save(figure, path, [stamp], "")
 
 
 def choices(points):
@@ -248,36 +228,39 @@ def family(method):
 
 def draw(points, heading, path, stamp):
     """Mean errors on the left, largest errors on the right."""
-    figure = new_figure(11.5, 5.4)
+    figure = style.new_figure(11.5, 5.4)
     point_stage = points[0]["stage"]
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     for axes, error, words in zip(panels, ("mean", "max"), ("mean error", "largest error")):
         best = front(points, error)
         axes.plot([p["us"] for p in best], [drawn(p[error]) for p in best],
                   color="#333333", linewidth=1.0, zorder=1, label="no other is better in both")
-        for name, (colour, marker, _) in FAMILIES.items():
-            own = [p for p in points if family(p["method"]) == name]
-            if own:
-                axes.plot([p["us"] for p in own], [drawn(p[error]) for p in own],
-                          linestyle="none", marker=marker, markersize=6.5, color=colour,
-                          markeredgecolor="white", label=name)
+        draw_families(axes, points, error)
         for number, point in enumerate(p for p in best if p[error] < MOST):
             axes.annotate(shorter(point["method"]), (point["us"], drawn(point[error])),
                           xytext=(4, 6 if number % 2 else -12), textcoords="offset points",
                           fontsize=7.5, color="#333333")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel("processor time per contact in µs, median over the contacts")
+        axes.set(xscale="log", yscale="log",
+                 xlabel="processor time per contact in µs, median over the contacts")
         forces = point_stage in ("tangential", "both")
-        axes.set_ylabel("error in % of $\\mu\\cdot N$; of $M_z$ in % of $\\mu\\cdot N c$" if forces
-                        else "error in %")
-        title(axes, f"{heading}: {words}")
+        axes.set(ylabel="error in % of $\\mu\\cdot N$; of $M_z$ in % of $\\mu\\cdot N c$" if forces
+                        else "error in %", title=f"{heading}: {words}")
         axes.margins(0.14)
-    legend_above(figure, *panels)
+    style.legend_above(figure, *panels)
     note = ""
     if any(p["max"] >= MOST for p in points):
         note = f"errors above {100 * MOST:.0f} % are drawn there"
-    save(figure, path, [stamp], note)
+    style.save(figure, path, [stamp], note)
+
+
+def draw_families(axes, points, error):
+    """Marks of each family of methods; peers are larger."""
+    for name, (colour, marker, _) in FAMILIES.items():
+        own = [p for p in points if family(p["method"]) == name]
+        if own:
+            axes.plot([p["us"] for p in own], [drawn(p[error]) for p in own], linestyle="none",
+                      marker=marker, color=colour, markeredgecolor="white", label=name,
+                      markersize=11 if own[0].get("peer") == "yes" else 6.5)
 
 
 def drawn(error):
@@ -292,14 +275,6 @@ def shorter(name):
         if name.startswith(word):
             return name[len(word):]
     return name.replace("Hertz + ", "H + ")
-
-
-def write_rows(path, header, rows):
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
-    write_text(path, stream.getvalue())
 
 
 if __name__ == "__main__":

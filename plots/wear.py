@@ -7,9 +7,8 @@ import sys
 import matplotlib
 import numpy as np
 
-from faststrip_plots import command, style
-from faststrip_plots.results import revision
-from faststrip_plots.tables import InputError, read_table
+from faststrip_plots import command, picture, style
+from faststrip_plots.tables import InputError
 
 STRIPS = ("case", "side", "contact", "y_left_mm", "y_right_mm", "y_rail_mm", "y_wheel_mm",
           "t_gamma_per_area_N_per_mm2", "wear_depth_mm_per_pass", "wear_depth_mm_per_km")
@@ -19,24 +18,6 @@ QUANTITIES = (("wear_depth_mm_per_km", "wear depth in µm per km", 1e3),
               ("wear_depth_mm_per_pass", "wear depth in nm per pass", 1e6),
               ("t_gamma_per_area_N_per_mm2", "$T\\gamma/A$ in N/mm²", 1.0))
 MOST_NAMES = 6  # states told apart by a legend
-
-
-def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--strips", default="out/wheelset_strips.csv", metavar="CSV",
-                        help="what `faststrip wheelset --strips` wrote")
-    parser.add_argument("--profiles", default="out/wheelset_profiles.csv", metavar="CSV",
-                        help="what `faststrip wheelset --profiles` wrote")
-    parser.add_argument("--body", choices=("wheel", "rail"),
-                        help="over whose profile (default: the one the law wears, or the wheel)")
-    parser.add_argument("-o", "--output", default="out/wear.png", metavar="PNG",
-                        help="picture to write")
-    options = parser.parse_args(arguments)
-    strips = read_table(options.strips, STRIPS)
-    profiles = read_table(options.profiles, PROFILES)
-    body = options.body or worn_body(strips)
-    draw(options.output, strips, profiles, body)
-    print(options.output)
 
 
 def worn_body(strips):
@@ -54,8 +35,15 @@ def quantity(strips):
     raise InputError(f"no strip has wear or T gamma: {strips.path}")
 
 
-def draw(path, strips, profiles, body):
+@picture.command(
+    __doc__, "out/wear.png",
+    strips=("out/wheelset_strips.csv", "what `faststrip wheelset --strips` wrote", STRIPS),
+    profiles=("out/wheelset_profiles.csv", "what `faststrip wheelset --profiles` wrote", PROFILES),
+    more={"body": dict(choices=("wheel", "rail"), help="over whose profile (default: the one the"
+                       " law wears, or the wheel)")})
+def main(strips, profiles, body):
     """A column for each side: profiles above, wear beneath."""
+    body = body or worn_body(strips)
     values, label = quantity(strips)
     case, side = np.array(strips.words("case")), np.array(strips.words("side"))
     contact = np.array(strips.words("contact"))
@@ -69,7 +57,7 @@ def draw(path, strips, profiles, body):
     for column, name in enumerate(sides):
         upper, lower = grid[:, column]
         draw_profiles(upper, profiles, name, body)
-        style.title(upper, f"{name} wheel and rail")
+        upper.set_title(f"{name} wheel and rail")
         for colour, state in zip(colours, cases):
             for number in sorted(set(contact[(case == state) & (side == name)])):
                 own = (case == state) & (side == name) & (contact == number)
@@ -81,17 +69,14 @@ def draw(path, strips, profiles, body):
             lower.set_xlim(middle - half, middle + half)
         lower.set_xlabel(f"$y$ on the profile of the {body} in mm, to the right")
     low, high = shown_heights(grid[0])
-    grid[0, 0].set_ylim(high, low)
-    grid[0, 0].set_ylabel("$z$ in mm, down")
-    grid[1, 0].set_ylabel(label)
-    grid[1, 0].set_ylim(bottom=0.0)
+    grid[0, 0].set(ylim=(high, low), ylabel="$z$ in mm, down")
+    grid[1, 0].set(ylabel=label, ylim=(0.0, None))
     grid[1, 0].invert_yaxis()
     grid[0, -1].legend(loc="best")
     if 1 < len(cases) <= MOST_NAMES:
         style.legend_above(figure, *grid[1])
-    note = "" if len(cases) <= MOST_NAMES else \
-        f"states from {cases[0]}, light, to {cases[-1]}, dark"
-    style.save(figure, path, [revision(strips), revision(profiles)], note)
+    return figure, ("" if len(cases) <= MOST_NAMES else
+                    f"states from {cases[0]}, light, to {cases[-1]}, dark")
 
 
 def draw_profiles(axes, profiles, side, body):

@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 
-from faststrip_plots import command, panels, style
+from faststrip_plots import command, panels, picture, style
 from faststrip_plots.results import revision
 from faststrip_plots.tables import InputError, read_table
 
@@ -24,28 +24,24 @@ PANELS = (("N_N", "$N$ in kN", 1e-3), ("Fx_N", "$F_x$ in kN", 1e-3), ("Fs_N", "$
 
 
 def main(arguments=None):
-    parser = command.parser(__doc__)
-    parser.add_argument("--result", default="out/wheelset.csv", metavar="CSV",
-                        help="what `faststrip wheelset -o` wrote")
-    parser.add_argument("--profiles", default="out/wheelset_profiles.csv", metavar="CSV",
-                        help="what `faststrip wheelset --profiles` wrote")
-    parser.add_argument("--states", metavar="CSV", help="the states, for y_mm: draws the sweep too")
-    parser.add_argument("--folder", default="out", metavar="DIR",
-                        help="where wheelset.png and wheelset_sweep.png go")
-    options = parser.parse_args(arguments)
+    options = command.options(__doc__, arguments, {
+        "result": ("out/wheelset.csv", "what `faststrip wheelset -o` wrote"),
+        "profiles": ("out/wheelset_profiles.csv", "what `faststrip wheelset --profiles` wrote"),
+        "states": (None, "the states, for y_mm: draws the sweep too")},
+        folder=("out", "where wheelset.png and wheelset_sweep.png go"))
     # Solutions beside a state are not drawn.
     result = read_table(options.result, RESULT).where("solution", ("", "1"))
     profiles = read_table(options.profiles, PROFILES)
-    path = os.path.join(options.folder, "wheelset.png")
-    draw_track(path, result, profiles)
-    print(path)
+    figure, note = draw_track(result, profiles)
+    picture.save(figure, os.path.join(options.folder, "wheelset.png"),
+                 [revision(result), revision(profiles)], note)
     if options.states:
-        path = os.path.join(options.folder, "wheelset_sweep.png")
-        draw_sweep(path, result, read_table(options.states, ("case", "y_mm")))
-        print(path)
+        states = read_table(options.states, ("case", "y_mm"))
+        picture.save(draw_sweep(result, states), os.path.join(options.folder, "wheelset_sweep.png"),
+                     [revision(result), revision(states)])
 
 
-def draw_track(path, result, profiles):
+def draw_track(result, profiles):
     """The whole track on top, a view of each contact below."""
     name = profiles.words("case")[0]
     outlines = read_outlines(profiles)
@@ -68,15 +64,13 @@ def draw_track(path, result, profiles):
     whole.set_aspect("equal")
     whole.invert_yaxis()
     whole.margins(0.03, 0.06)
-    style.title(whole, f"Wheelset on its track, state {name}; forces on the rails")
+    whole.set_title(f"Wheelset on its track, state {name}; forces on the rails")
     for column, row in enumerate(rows):
         axes = figure.add_subplot(grid[1, column])
         draw_contact(axes, result, outlines, row, numbers, largest)
-    whole.set_xlabel("$y$ in the track in mm, to the right")
-    whole.set_ylabel("$z$ in mm, down")
-    style.save(figure, path, [revision(result), revision(profiles)],
-               f"arrows: {style.number(largest * 1e-3 // 1)} kN at the longest" if largest > 1e3
-               else "")
+    whole.set(xlabel="$y$ in the track in mm, to the right", ylabel="$z$ in mm, down")
+    return figure, (f"arrows: {style.number(largest * 1e-3 // 1)} kN at the longest"
+                    if largest > 1e3 else "")
 
 
 def read_outlines(profiles):
@@ -125,11 +119,8 @@ def draw_contact(axes, result, outlines, row, numbers, largest):
     arrow(axes, numbers, row, 0.75 * half / largest)
     axes.plot(y, z, marker="o", markersize=6, markerfacecolor="white", markeredgecolor=RED,
               markeredgewidth=1.6, zorder=6)
-    axes.set_xlim(y - half, y + half)
-    axes.set_ylim(z + half, z - half)
-    axes.set_aspect("equal")
-    axes.set_xlabel("$y$ in mm")
-    style.title(axes, f"{side}, contact {result.words('contact')[row]}")
+    axes.set(xlim=(y - half, y + half), ylim=(z + half, z - half), aspect="equal",
+             xlabel="$y$ in mm", title=f"{side}, contact {result.words('contact')[row]}")
     kilo = 1e-3
     axes.text(0.03, 0.03, f"$N$ {style.number(round(numbers['N_N'][row] * kilo, 1))} kN\n"
               f"$F_x$ {style.number(round(numbers['Fx_N'][row] * kilo, 1))} kN\n"
@@ -154,7 +145,7 @@ def arrow(axes, numbers, row, scale):
     axes.update_datalim([end])
 
 
-def draw_sweep(path, result, states):
+def draw_sweep(result, states):
     """Forces and places over y; a gap where there is no contact."""
     shifts = dict(zip(states.words("case"), states.numbers("y_mm", missing=True)))
     unknown = set(result.words("case")) - set(shifts)
@@ -191,7 +182,7 @@ def draw_sweep(path, result, states):
         axes.set_xlabel("lateral displacement $y$ in mm, to the right")
     figure.align_ylabels(grid)
     style.legend_above(figure, *grid.flat)
-    style.save(figure, path, [revision(result), revision(states)])
+    return figure
 
 
 if __name__ == "__main__":

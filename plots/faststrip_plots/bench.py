@@ -4,29 +4,22 @@ from __future__ import annotations
 
 import math
 
-from . import command, scales
+from . import picture, scales
 
 # Goals are rings around the point, in the colour of the line they belong to.
 RING = dict(linestyle="none", marker="o", markersize=10, zorder=5, markerfacecolor="none",
             markeredgewidth=1.6)
 
 
-def options(description, name, arguments, more=()):
-    """What a picture of `faststrip-lab bench NAME` is drawn from and to."""
-    parser = command.parser(description)
-    parser.add_argument("--bench", default=f"out/bench_{name}.csv", metavar="CSV",
-                        help=f"what `faststrip-lab bench {name}` wrote")
-    for option, words in more:
-        parser.add_argument(option, **words)
-    parser.add_argument("-o", "--output", default=f"out/bench_{name}.png", metavar="PNG",
-                        help="picture to write")
-    return parser.parse_args(arguments)
+def command(description, name, columns, more=None):
+    """Makes a command of a function that draws what `faststrip-lab bench NAME` wrote."""
+    return picture.command(description, f"out/bench_{name}.png", more=more, bench=(
+        f"out/bench_{name}.csv", f"what `faststrip-lab bench {name}` wrote", columns))
 
 
 def draw_line(axes, x, y, look, **more):
     """A line of a look with its points."""
-    axes.plot(x, y, **(dict(color=look.colour, linestyle=look.line, linewidth=look.width,
-                            marker="o", markersize=3.6, label=look.label, zorder=3) | more))
+    axes.plot(x, y, **(look.line_style | dict(marker="o", markersize=3.6, zorder=3) | more))
 
 
 def draw_goal(axes, x, y, look):

@@ -8,7 +8,9 @@ import sys
 
 from .tables import InputError
 
-SWEEP = "out/sweep.csv"
+SWEEP = {"sweep": ("out/sweep.csv", "what `faststrip sweep` wrote")}
+STRIPS = {"strips": (None, "strips of the contact (default: out/strips_shift_MM.csv)")}
+FIELDS = {"fields": (None, "fields of the contact (default: out/fields_shift_MM.csv)")}
 
 
 def parser(description: str) -> argparse.ArgumentParser:
@@ -16,6 +18,23 @@ def parser(description: str) -> argparse.ArgumentParser:
     return argparse.ArgumentParser(
         description=description, formatter_class=argparse.ArgumentDefaultsHelpFormatter
     )
+
+
+def options(description, arguments, files, output=None, folder=None, more=None):
+    """What a command was told: `files` are CSV files by their options, default and meaning of each,
+    `output` default, kind and meaning of -o, `folder` default and meaning of --folder; `more` are
+    other options, as the parser takes them."""
+    made = parser(description)
+    for name, (default, words) in files.items():
+        made.add_argument(f"--{name}", default=default, metavar="CSV", help=words)
+    for name, words in (more or {}).items():
+        made.add_argument(f"--{name}", **words)
+    if output:
+        default, kind, words = output
+        made.add_argument("-o", "--output", default=default, metavar=kind, help=words)
+    if folder:
+        made.add_argument("--folder", default=folder[0], metavar="DIR", help=folder[1])
+    return made.parse_args(arguments)
 
 
 def run(main, arguments=None) -> int:
@@ -34,12 +53,26 @@ def shift_file(kind: str, shift: float) -> str:
     return f"out/{kind}_shift_{shift:g}.csv"
 
 
-def friction(text: str) -> float:
-    """A coefficient of friction from the command line."""
-    value = float(text)
-    if not 0.0 < value < 10.0:
-        raise ValueError(text)
-    return value
+def png(default) -> tuple:
+    """The option -o of a picture."""
+    return default, "PNG", "picture to write"
+
+
+def shift(what: str) -> dict:
+    """The option --shift: a lateral shift of the wheel, and what it is for."""
+    return {"shift": dict(type=float, default=0.0, metavar="MM", help=what)}
+
+
+def friction(what: str) -> dict:
+    """The option --mu: a coefficient of friction, and what of."""
+    def value(text):
+        found = float(text)
+        if not 0.0 < found < 10.0:
+            raise ValueError(text)
+        return found
+
+    value.__name__ = "friction"
+    return {"mu": dict(type=value, default=0.3, metavar="MU", help=what)}
 
 
 def report_failures(sweep) -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import base64
+import csv
 import html
+import io
 import os
 import re
 from dataclasses import dataclass, field
@@ -14,6 +16,7 @@ from .tables import InputError
 LONG = 48  # letters: a longer cell is a text of its own
 SHORT = 12  # letters: a shorter one is never broken
 NUMBER = 24  # letters: with more a number has a text behind it
+ANNOUNCED = ("file", "title", "caption", "chapter")
 MANY = 12  # columns: more are printed small
 
 # Also the style of the site: tools/docs/document.py.
@@ -50,7 +53,7 @@ class Document:
             elif kind == "paragraph":
                 parts.append(rest[0])
             elif kind == "table":
-                parts.append(_markdown_table(rest[0], rest[1]))
+                parts.append(markdown_table(rest[0], rest[1]))
             else:
                 path, title, caption = rest
                 link = os.path.relpath(path, folder).replace(os.sep, "/")
@@ -103,22 +106,39 @@ def write_text(path: str, text: str) -> None:
         raise InputError(f"cannot write: {path} ({os.strerror(error.errno)})") from None
 
 
+def write_rows(path: str, header, rows) -> None:
+    """Write a whole CSV file or leave the old one."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(rows)
+    write_text(path, stream.getvalue())
+
+
+def write_dicts(path: str, rows) -> None:
+    """The same of rows that know the names of their cells."""
+    write_rows(path, rows[0], [row.values() for row in rows])
+
+
+def announce(folder: str, name: str, rows) -> None:
+    """The list `name` of a folder, of pictures or tables for the report: file, title, caption,
+    chapter."""
+    write_rows(os.path.join(folder, name), ANNOUNCED, rows)
+
+
 def _anchor(text):
     return "".join(c if c.isalnum() else "-" for c in text.lower())
 
 
-def _markdown_table(header, rows):
+def markdown_table(header, rows):
+    """A Markdown table whose columns line up as plain text too."""
     cells = [[cell.replace("|", "\\|") for cell in row] for row in [header, *rows]]
     widths = [max(len(row[k]) for row in cells) for k in range(len(header))]
 
-    def form(row):
-        rest = [cell.rjust(width) for cell, width in zip(row[1:], widths[1:])]
-        return "| " + " | ".join([row[0].ljust(widths[0])] + rest) + " |"
-
-    rule = "|" + "|".join(
-        "-" * (width + 2) if k == 0 else "-" * (width + 1) + ":" for k, width in enumerate(widths)
-    ) + "|"
-    return "\n".join([form(cells[0]), rule] + [form(row) for row in cells[1:]])
+    aligned = [[row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])] for row in cells]
+    first, *others = [f"| {' | '.join(row)} |" for row in aligned]
+    rule = "|" + "|".join(["-" * (widths[0] + 2), *("-" * (w + 1) + ":" for w in widths[1:])]) + "|"
+    return "\n".join([first, rule, *others])
 
 
 def _html_table(header, rows, bad):

@@ -48,8 +48,7 @@ def draw_value(axes, sweep, reference, name):
         axes.set_ylim(bottom=0.0)
     else:
         axes.axhline(0.0, color="#444444", linewidth=0.8, zorder=1)
-    axes.set_ylabel(f"{quantity.symbol}, {quantity.unit}")
-    style.title(axes, quantity.name.capitalize())
+    axes.set(ylabel=f"{quantity.symbol}, {quantity.unit}", title=quantity.name.capitalize())
 
 
 def draw_ratio(axes, sweep, reference, name, mu, least=NEAR_ZERO):
@@ -78,9 +77,8 @@ def draw_ratio(axes, sweep, reference, name, mu, least=NEAR_ZERO):
                 )
                 outside = True
     axes.axhline(1.0, color="#444444", linewidth=0.8, zorder=1)
-    axes.set_ylim(low, high)
-    axes.set_ylabel(f"{quantity.symbol} over CONTACT's {quantity.symbol}")
-    style.title(axes, quantity.name.capitalize() + ": ratio")
+    axes.set(ylim=(low, high), ylabel=f"{quantity.symbol} over CONTACT's {quantity.symbol}",
+             title=quantity.name.capitalize() + ": ratio")
     return outside
 
 
@@ -94,13 +92,13 @@ def draw_difference(axes, sweep, reference, name, mu):
     axes.axhline(0.0, color="#444444", linewidth=0.8, zorder=1)
     base = QUANTITIES[name].base
     unit = f"% of {BASES[base]}" if base in BASES else "%"
-    axes.set_ylabel(f"{QUANTITIES[name].symbol} less CONTACT's, {unit}")
-    style.title(axes, QUANTITIES[name].name.capitalize() + ": difference")
+    axes.set(ylabel=f"{QUANTITIES[name].symbol} less CONTACT's, {unit}",
+             title=QUANTITIES[name].name.capitalize() + ": difference")
 
 
 def _line(axes, x, y, look):
     axes.plot(
-        x, y, color=look.colour, linestyle=look.line, linewidth=look.width, label=look.label,
+        x, y, **look.line_style,
         marker="o", markersize=2.6, zorder=2.8 if look.width > 3.0 else 3,
     )
 
@@ -112,7 +110,7 @@ def draw_outlines(axes, strips=None, ellipse=None, contact=None):
     """Outlines of the contact: strips as bars and curve, Hertz ellipse, CONTACT's border."""
     if strips is not None:
         look = style.normal_look("strip")
-        for k, patch in enumerate(strips.patches):
+        for patch in strips.patches:
             bars = [
                 ((left, -half), (right, -half), (right, half), (left, half))
                 for left, right, half in zip(patch.y_left, patch.y_right, patch.half_length)
@@ -123,15 +121,14 @@ def draw_outlines(axes, strips=None, ellipse=None, contact=None):
             y, half = patch.smooth(patch.half_length)
             axes.plot(
                 np.concatenate([y, y[::-1]]), np.concatenate([half, -half[::-1]]),
-                color=look.colour, linestyle=look.line, linewidth=look.width,
-                label=look.label if k == 0 else None, zorder=3,
+                **look.line_style, zorder=3,
             )
     if ellipse is not None:
         look = style.normal_look("hertz")
         angle = np.linspace(0.0, 2.0 * math.pi, 241)
         axes.plot(
             ellipse.middle + ellipse.b * np.cos(angle), ellipse.a * np.sin(angle),
-            color=look.colour, linestyle=look.line, linewidth=look.width, label=look.label,
+            **look.line_style,
             zorder=2,
         )
     if contact is not None:
@@ -145,8 +142,7 @@ def draw_outlines(axes, strips=None, ellipse=None, contact=None):
 
 def patch_axes(axes):
     """Labels of a plane of contact: y to the right, x (rolling) up."""
-    axes.set_xlabel("lateral $y$, mm")
-    axes.set_ylabel("rolling direction $x$, mm")
+    axes.set(xlabel="lateral $y$, mm", ylabel="rolling direction $x$, mm")
 
 
 def share_limits(*several):
@@ -154,8 +150,7 @@ def share_limits(*several):
     x = [end for axes in several for end in axes.get_xlim()]
     y = [end for axes in several for end in axes.get_ylim()]
     for axes in several:
-        axes.set_xlim(min(x), max(x))
-        axes.set_ylim(min(y), max(y))
+        axes.set(xlim=(min(x), max(x)), ylim=(min(y), max(y)))
 
 
 def border(field, spacing=4.0):
@@ -223,10 +218,9 @@ def _tiles(axes, tiles, values, top):
 def draw_cut_along_y(axes, strips, ellipse=None, contact=None, norm=None):
     """Pressure on the centre line x = 0."""
     look = style.normal_look("strip")
-    for k, patch in enumerate(strips.patches):
+    for patch in strips.patches:
         y, p = patch.smooth(patch.p0)
-        axes.plot(y, p, color=look.colour, linestyle=look.line, linewidth=look.width,
-                  label=look.label if k == 0 else None, zorder=3)
+        axes.plot(y, p, **look.line_style, zorder=3)
         axes.plot(patch.y, patch.p0, color=look.colour, linestyle="none", marker="o",
                   markersize=3.2, zorder=3)
     if ellipse is not None:
@@ -235,9 +229,7 @@ def draw_cut_along_y(axes, strips, ellipse=None, contact=None, norm=None):
         _norm_line(axes, *_beside_the_centre_line(norm))
     if contact is not None:
         _symbols(axes, *_beside_the_centre_line(contact), 34)
-    axes.set_ylim(bottom=0.0)
-    axes.set_xlabel("lateral $y$, mm")
-    axes.set_ylabel("pressure, MPa")
+    axes.set(ylim=(0.0, None), xlabel="lateral $y$, mm", ylabel="pressure, MPa")
 
 
 def _beside_the_centre_line(field):
@@ -258,7 +250,7 @@ def draw_cut_along_x(axes, strips, field, ellipse=None, contact=None, norm=None)
     axes.plot(
         np.concatenate([[-half], field.x[row], [half]]),
         np.concatenate([[0.0], field.pressure[row], [0.0]]),
-        color=look.colour, linestyle=look.line, linewidth=look.width, label=look.label, marker="o",
+        **look.line_style, marker="o",
         markersize=3.2, zorder=3,
     )
     if ellipse is not None:
@@ -271,9 +263,7 @@ def draw_cut_along_x(axes, strips, field, ellipse=None, contact=None, norm=None)
     if contact is not None:
         row = contact.nearest_row(y)
         _symbols(axes, contact.x[row], contact.pressure[row], 24)
-    axes.set_ylim(bottom=0.0)
-    axes.set_xlabel("rolling direction $x$, mm")
-    axes.set_ylabel("pressure, MPa")
+    axes.set(ylim=(0.0, None), xlabel="rolling direction $x$, mm", ylabel="pressure, MPa")
     return y
 
 
@@ -282,9 +272,8 @@ def _norm_line(axes, x, y):
     look = style.normal_look("norm")
     gaps = np.flatnonzero(np.diff(x) > 1.5 * np.diff(x).min()) if len(x) > 1 else []
     parts = zip(np.split(x, np.add(gaps, 1).astype(int)), np.split(y, np.add(gaps, 1).astype(int)))
-    for k, (along, pressure) in enumerate(parts):
-        axes.plot(along, pressure, color=look.colour, linestyle=look.line, linewidth=look.width,
-                  label=look.label if k == 0 else None, zorder=2.8)
+    for along, pressure in parts:
+        axes.plot(along, pressure, **look.line_style, zorder=2.8)
 
 
 def _symbols(axes, x, y, number):
@@ -298,8 +287,7 @@ def _symbols(axes, x, y, number):
 def _half_ellipse(axes, middle, half, top):
     look = style.normal_look("hertz")
     angle = np.linspace(0.0, math.pi, 181)
-    axes.plot(middle + half * np.cos(angle), top * np.sin(angle), color=look.colour,
-              linestyle=look.line, linewidth=look.width, label=look.label, zorder=2)
+    axes.plot(middle + half * np.cos(angle), top * np.sin(angle), **look.line_style, zorder=2)
 
 
 class Ellipse:
@@ -345,8 +333,7 @@ def draw_profiles(axes, profiles):
     axes.plot(rail[:, 0], rail[:, 1], color="#444444", linewidth=2.0, zorder=3)
     axes.set_aspect("equal")
     axes.invert_yaxis()
-    axes.set_xlabel("lateral $y$, mm")
-    axes.set_ylabel("$z$ (down), mm")
+    axes.set(xlabel="lateral $y$, mm", ylabel="$z$ (down), mm")
     for name, points, side in (("wheel", wheel, np.min), ("rail", rail, np.max)):
         # the word stands halfway between the surface and the flat end of the body drawn
         middle = 0.5 * (points[:, 0].min() + points[:, 0].max()) if name == "rail" else points[

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import panels, scales, style
 from .curves import ABSCISSA, GROUPS, RANGE, colour_of
-from .results import QUANTITIES, compare, percent_errors
+from .results import QUANTITIES, error_sizes
 from .tables import InputError, read_table
 
 CHAPTER = "paper"  # of the report
@@ -73,15 +73,13 @@ def _integral_picture(left, right, curves, stamp):
         error.plot(L, 100.0 * curve.rel_err[inside], color=colour, linewidth=1.2 if many else 1.8,
                    linestyle=ERROR_LINES.get(curve.n, "-"), zorder=3, label=f"{2 * curve.n}")
     for axes in (value, power, error):
-        axes.set_xlim(*RANGE)
-        axes.set_xlabel(ABSCISSA + ",  $b = y_d / x_d$")
-    value.set_ylim(bottom=0.0)
-    value.set_ylabel("$i$ (half the integral)")
+        axes.set(xlim=RANGE, xlabel=ABSCISSA + ",  $b = y_d / x_d$")
+    value.set(ylim=(0.0, None), ylabel="$i$ (half the integral)")
     power.set_ylabel(r"$E = \log_{10} i$")
     error.set_ylabel("polynomial less exact, %")
-    style.title(value, f"Fig. {left} redone: $i$")
-    style.title(power, f"Fig. {right} redone: $E$")
-    style.title(error, "Error of the published polynomial")
+    value.set_title(f"Fig. {left} redone: $i$")
+    power.set_title(f"Fig. {right} redone: $E$")
+    error.set_title("Error of the published polynomial")
     style.legend_above(figure, value)
     matplotlib.artist.setp(figure.legends[0].legend_handles[0], color="#444444")
     figure.draw_without_rendering()
@@ -138,15 +136,12 @@ def shift_pictures(fine, reference):
                 use = side * method.yw >= -1e-9
                 look = style.normal_look(method.normal)
                 values = method.values[quantity.column][use] * quantity.scale
-                axes.plot(*broken(method.yw[use], values), color=look.colour,
-                          linestyle=look.line, linewidth=look.width, label=look.label, zorder=3)
+                axes.plot(*broken(method.yw[use], values), **look.line_style, zorder=3)
             use = side * reference.yw >= -1e-9
             axes.plot(reference.yw[use], reference.values[name][use] * quantity.scale, zorder=4,
                       **style.CONTACT)
-            axes.set_xlabel(panels.SHIFT_LABEL)
-            style.title(axes, f"Fig. {number} redone: {words}")
-        grid[0].set_ylim(bottom=0.0)
-        grid[0].set_ylabel(f"{quantity.symbol}, {quantity.unit}")
+            axes.set(xlabel=panels.SHIFT_LABEL, title=f"Fig. {number} redone: {words}")
+        grid[0].set(ylim=(0.0, None), ylabel=f"{quantity.symbol}, {quantity.unit}")
         style.legend_above(figure, *grid)
         steps = [np.median(np.diff(method.yw)) for method in fine.methods if method.yw.size > 1]
         caption = (
@@ -176,9 +171,9 @@ def normal_picture(sweep, reference, mu):
     for axes, number, name in zip(grid.flat, (17, 18, 19), ("penetration", "area", "pmax")):
         panels.draw_value(axes, sweep, reference, name)
         words = "approach (“shift”)" if name == "penetration" else QUANTITIES[name].name
-        style.title(axes, f"Fig. {number} redone: {words}")
+        axes.set_title(f"Fig. {number} redone: {words}")
     beyond = panels.draw_ratio(grid[1, 1], sweep, reference, "pmax", mu)
-    style.title(grid[1, 1], "Fig. 20 redone: $p_\\mathrm{max}$ over CONTACT's")
+    grid[1, 1].set_title("Fig. 20 redone: $p_\\mathrm{max}$ over CONTACT's")
     for axes in grid[1]:
         axes.set_xlabel(panels.SHIFT_LABEL)
     figure.align_ylabels(grid)
@@ -194,13 +189,11 @@ def normal_picture(sweep, reference, mu):
 def _normal_errors(sweep, reference, mu):
     parts = []
     for method in sweep.normals():
-        pairs = compare(sweep, method, reference)
-        if pairs.rows.size == 0:
-            continue
-        errors = [np.abs(percent_errors(pairs, reference, name, mu)).mean()
+        errors = [error_sizes(sweep, method, reference, name, mu)
                   for name in ("penetration", "area", "pmax")]
-        parts.append(f"{style.normal_look(method.normal).label} "
-                     + ", ".join(_percent(error) for error in errors))
+        if errors[0].size:
+            parts.append(f"{style.normal_look(method.normal).label} "
+                         + ", ".join(_percent(error.mean()) for error in errors))
     return "Mean errors of approach, area and pressure: " + "; ".join(parts) + "."
 
 
@@ -213,15 +206,17 @@ def force_pictures(sweep, reference, mu, sign_set):
         panels.draw_value(value, sweep, reference, name)
         beyond = panels.draw_ratio(ratio, sweep, reference, name, mu, LEAST)
         symbol = PAPER_SYMBOLS[name]
-        style.title(value, f"Fig. {left} redone: {symbol}")
-        style.title(ratio, f"Fig. {right} redone: {symbol} over CONTACT's")
+        value.set_title(f"Fig. {left} redone: {symbol}")
+        ratio.set_title(f"Fig. {right} redone: {symbol} over CONTACT's")
         for axes in (value, ratio):
             axes.set_xlabel(panels.SHIFT_LABEL)
         ratio.set_xlim(value.get_xlim())
         fit_ratios(ratio)
         value.set_ylabel(f"{symbol}, {quantity.unit}")
         ratio.set_ylabel(f"{symbol} over CONTACT's {symbol}")
-        _legend_in_rows(figure, value)
+        # in as many rows as a narrow figure needs
+        style.legend_above(figure, value, length=2.8, spacing=1.6,
+                           columns=lambda names: names if names <= 4 else 3)
         least = f"{100.0 * LEAST:g} %"
         base = panels.BASES[quantity.base]
         notes = [f"ratios where CONTACT's value is at least {least} of {base}"]
@@ -251,19 +246,10 @@ def _force_errors(sweep, reference, name, mu):
     base = QUANTITIES[name].base
     parts = []
     for method in sweep.methods:
-        pairs = compare(sweep, method, reference)
-        if pairs.rows.size:
-            error = np.abs(percent_errors(pairs, reference, name, mu)).mean()
-            parts.append(f"{style.method_look(*method.key).label} {_percent(error)}")
+        error = error_sizes(sweep, method, reference, name, mu)
+        if error.size:
+            parts.append(f"{style.method_look(*method.key).label} {_percent(error.mean())}")
     return f"Mean errors in percent of {base}: " + "; ".join(parts) + "."
-
-
-def _legend_in_rows(figure, axes, most=4):
-    """A legend above all panels, in as many rows as a narrow figure needs."""
-    handles, labels = axes.get_legend_handles_labels()
-    columns = len(handles) if len(handles) <= most else most - 1
-    figure.legend(handles, labels, loc="outside upper center", ncols=columns,
-                  handlelength=2.8, columnspacing=1.6)
 
 
 def _percent(value):

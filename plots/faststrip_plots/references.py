@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 
-REFERENCE = "reference/contact/s1002_uic60_B.csv"
+SWEEP = {"reference": ("reference/contact/s1002_uic60_B.csv", "the same sweep by full CONTACT")}
+FIELD = {"contact": (None, "CONTACT's field of the same contact (default:"
+                     " reference/contact/fields/shift_MM_B.csv if there is one)")}
 
 
 def contact_file(given: str | None, shift: float) -> str | None:

@@ -99,6 +99,11 @@ class Sweep:
                 found[method.normal] = method
         return list(found.values())
 
+    @property
+    def by_key(self) -> dict:
+        """The methods by their combination."""
+        return {method.key: method for method in self.methods}
+
     def find(self, normal: str, shift: float):
         """Sweep and row of a normal method at a shift, none if there is no result."""
         for method in self.methods:
@@ -218,6 +223,12 @@ def percent_errors(
     got = comparison.method.values[QUANTITIES[name].column][comparison.rows]
     expected = reference.values[name][comparison.reference_rows]
     return 100.0 * (got - expected) / reference.base(name, mu)[comparison.reference_rows]
+
+
+def error_sizes(sweep: Sweep, method: MethodSweep, reference: Reference, name: str,
+                mu: float) -> np.ndarray:
+    """Sizes of the errors of a method where both have a result, in percent."""
+    return np.abs(percent_errors(compare(sweep, method, reference), reference, name, mu))
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import numpy as np
 
 from . import style
 from .curves import RANGE
-from .results import QUANTITIES, SHIFT_TOLERANCE, compare, percent_errors
+from .results import QUANTITIES, SHIFT_TOLERANCE, compare, error_sizes, percent_errors
 from .tables import Table
 
 HOLDS, LIMITED, FAILS = "holds", "holds with a limit", "does not hold"
@@ -228,11 +228,8 @@ def _normal(data):
     sweep, reference = data.sweeps["A"]
     methods = {method.normal: method for method in sweep.normals()}
     names = ("penetration", "area", "pmax")
-    errors = {
-        (key, name): np.abs(percent_errors(compare(sweep, method, reference), reference, name,
-                                           data.mu))
-        for key, method in methods.items() for name in names
-    }
+    errors = {(key, name): error_sizes(sweep, method, reference, name, data.mu)
+              for key, method in methods.items() for name in names}
     strip = methods.get("strip")
     shape = np.array([math.nan]) if strip is None else (
         (strip.values["ymax_mm"] - strip.values["ymin_mm"]) / (2.0 * strip.values["xmax_mm"]))
@@ -431,7 +428,7 @@ def _same_shifts(yw, others):
 
 def _closeness(data):
     for signs, (sweep, reference) in sorted(data.sweeps.items()):
-        methods = {method.key: method for method in sweep.methods}
+        methods = sweep.by_key
         source = f"sweep {signs}, CONTACT set {signs}"
         for key in PAPER:
             subject = style.method_look(*key).label
@@ -470,10 +467,9 @@ def _own_words(data, sweep, reference, name, method):
     """What this project's FASTSTRIP does there, which no statement of the paper is judged on."""
     if method is None:
         return ""
-    pairs = compare(sweep, method, reference)
-    if pairs.rows.size == 0:
+    error = error_sizes(sweep, method, reference, name, data.mu)
+    if error.size == 0:
         return ""
-    error = np.abs(percent_errors(pairs, reference, name, data.mu))
     return (f"; not judged: this project's FASTSTRIP, {_short(error.mean())} and"
             f" {_short(error.max())}, its constants chosen on these and on Hertz"
             f" contacts")
@@ -501,18 +497,14 @@ def _nearer(id, name, subject, errors, own_words, source):
 
 def _means(data, sweep, reference, method):
     """Mean errors of Tx, Ty and Mz; NaN where the method has no result."""
-    if method is None:
-        return np.full(3, math.nan)
-    pairs = compare(sweep, method, reference)
-    if pairs.rows.size == 0:
-        return np.full(3, math.nan)
-    return np.array([np.abs(percent_errors(pairs, reference, name, data.mu)).mean()
-                     for name in SYMBOLS])
+    errors = [] if method is None else [
+        error_sizes(sweep, method, reference, name, data.mu) for name in SYMBOLS]
+    return np.array([error.mean() for error in errors if error.size] or [math.nan] * 3)
 
 
 def _fastsim(data):
     sweep, reference = data.sweeps["A"]
-    methods = {method.key: method for method in sweep.methods}
+    methods = sweep.by_key
     hertz, strip = (_means(data, sweep, reference, methods.get((normal, "fastsim")))
                     for normal in ("hertz", "strip"))
     yield judged(
@@ -536,7 +528,7 @@ def _tangential_times(data):
         ("usual", sweep, "each at its usual resolution", "sweep A"),
         ("equal", data.fine, "FASTSIM on 15 by 15 elements", "sweep, fine steps"),
     ):
-        methods = {method.key: method for method in source.methods}
+        methods = source.by_key
         for key in PAPER:
             ratio, times = _times(methods.get(key), methods.get(("hertz", "fastsim")))
             yield judged(
@@ -548,7 +540,7 @@ def _tangential_times(data):
     use = (start == "warm_shift") & (data.normal.numbers("strips") == STRIPS)
     warm = float(np.median(data.normal.numbers("us")[use])) if use.any() else math.nan
     contact = 1e6 * float(np.median(data.contact.numbers("cpu_total_s")))
-    methods = {method.key: method for method in data.fine.methods}
+    methods = data.fine.by_key
     for key in PAPER:
         whole = warm + _median_time(methods[key]) if key in methods else math.nan
         known = math.isfinite(whole)

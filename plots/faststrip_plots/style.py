@@ -10,6 +10,7 @@ import sys
 import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from .tables import InputError
 
@@ -27,7 +28,7 @@ _style = _package_style()
 FONT, SMALL, DPI, MAP, GREY = _style.FONT, _style.SMALL, _style.DPI, _style.MAP, _style.GREY
 PALE, NORMAL, METHOD, CONTACT = _style.PALE, _style.NORMAL, _style.METHOD, _style.CONTACT
 Look, normal_look, method_look = _style.Look, _style.normal_look, _style.method_look
-number, title = _style.number, _style.title
+number = _style.number
 
 
 def luminance(colour: str) -> float:
@@ -54,17 +55,24 @@ def fit_panel(figure, axes, width: float, height: float) -> None:
     )
 
 
-def legend_above(figure, *axes) -> None:
-    """One legend for the whole figure, above all panels, each name once."""
+def legend_above(figure, *axes, columns=lambda names: min(5, names), length=3.2,
+                 spacing=2.4) -> None:
+    """One legend for the whole figure, above all panels, each name once; in so many columns by the
+    number of names."""
     handles = {}
     for each in axes:
         for handle, label in zip(*each.get_legend_handles_labels()):
             handles.setdefault(label, handle)
-    figure.legend(
-        handles.values(), handles.keys(), loc="outside upper center",
-        ncols=max(1, min(5, len(handles))),
-        handlelength=3.2, columnspacing=2.4,
-    )
+    figure.legend(handles.values(), handles.keys(), loc="outside upper center",
+                  ncols=max(1, columns(len(handles))), handlelength=length, columnspacing=spacing)
+
+
+def log_axes(axes) -> None:
+    """Logarithmic both, with plain numbers."""
+    axes.set(xscale="log", yscale="log")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(NullFormatter())
 
 
 def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> None:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import pathlib
-from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _style as style
-from ._library import BAD_ARGUMENT, FaststripError, word_of
+from ._library import bad_argument
 from ._profile import Gap, Profile, draw_profile
 from ._tables import extra
 
@@ -28,7 +29,7 @@ X_LABEL = "rolling direction $x$, mm"
 
 def _new_figure(width: float, height: float) -> Any:
     pyplot = extra("matplotlib.pyplot", "plot")
-    with extra("matplotlib", "plot").rc_context(style.PARAMETERS):
+    with _styled():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
         figure.get_layout_engine().set(w_pad=0.12, h_pad=0.06)
         return figure
@@ -38,9 +39,18 @@ def _styled() -> Any:
     return extra("matplotlib", "plot").rc_context(style.PARAMETERS)
 
 
-def _axes_or_new(axes: Any, width: float = 4.6, height: float = 3.9) -> Any:
-    """The axes of the caller, or new ones."""
-    return _new_figure(width, height).subplots() if axes is None else axes
+@contextlib.contextmanager
+def _drawing(axes: Any, width: float = 4.6, height: float = 3.9) -> Iterator[Any]:
+    """The axes of the caller, or new ones, in the style."""
+    with _styled():
+        yield _new_figure(width, height).subplots() if axes is None else axes
+
+
+def _profile_axes(axes: Any, **aspect: Any) -> None:
+    axes.set_aspect("equal", **aspect)
+    if not axes.yaxis_inverted():
+        axes.invert_yaxis()
+    axes.set(xlabel="$y$ to the field side, mm", ylabel="$z$ (down), mm")
 
 
 def plot_contact(contact: Contact, figure: Any = None) -> Any:
@@ -48,8 +58,7 @@ def plot_contact(contact: Contact, figure: Any = None) -> Any:
     border of adhesion if there are elements."""
     strips, elements = contact.strips(), contact.elements()
     if len(strips.p0) == 0:
-        raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT),
-                             "there is no contact to draw: solve one first")
+        raise bad_argument("there is no contact to draw: solve one first")
     has_tractions = len(elements.x) > 0 and bool(np.any(elements.pn > 0.0))
     with _styled():
         if figure is None:
@@ -64,14 +73,13 @@ def plot_contact(contact: Contact, figure: Any = None) -> Any:
 
 def _refuse_nothing(n: int, what: str) -> None:
     if n == 0:
-        raise FaststripError(BAD_ARGUMENT, word_of(BAD_ARGUMENT), f"there are no {what} to draw")
+        raise bad_argument(f"there are no {what} to draw")
 
 
 def plot_strips(strips: Strips, axes: Any = None) -> Any:
     """The patch from above; the axes are given back."""
     _refuse_nothing(len(strips.p0), "strips")
-    with _styled():
-        axes = _axes_or_new(axes)
+    with _drawing(axes) as axes:
         draw_pressure(axes, strips)
     return axes
 
@@ -79,8 +87,7 @@ def plot_strips(strips: Strips, axes: Any = None) -> Any:
 def plot_elements(elements: Elements, axes: Any = None) -> Any:
     """Tractions on the rail; the axes are given back."""
     _refuse_nothing(len(elements.x), "elements")
-    with _styled():
-        axes = _axes_or_new(axes)
+    with _drawing(axes) as axes:
         draw_tractions(axes, elements)
     return axes
 
@@ -89,13 +96,10 @@ def plot_lines(axes: Any, x: Array, lines: Mapping[str, Array], x_label: str,
                y_label: str) -> Any:
     """Lines over x, told apart also in grey; the axes are given back."""
     looks = list(style.METHOD.values())
-    with _styled():
-        axes = _axes_or_new(axes, 5.6, 3.4)
+    with _drawing(axes, 5.6, 3.4) as axes:
         for look, (label, values) in zip(looks, lines.items()):
-            axes.plot(x, values, color=look.colour, linestyle=look.line, linewidth=look.width,
-                      label=label or None)
-        axes.set_xlabel(x_label)
-        axes.set_ylabel(y_label)
+            axes.plot(x, values, **{**look.line_style, "label": label or None})
+        axes.set(xlabel=x_label, ylabel=y_label)
         if any(lines):
             axes.legend()
     return axes
@@ -103,15 +107,10 @@ def plot_lines(axes: Any, x: Array, lines: Mapping[str, Array], x_label: str,
 
 def plot_profile(profile: Profile, axes: Any, options: Dict[str, Any]) -> Any:
     """The points of one profile, z down; the axes are given back."""
-    with _styled():
-        axes = _axes_or_new(axes, 7.0, 3.4)
+    with _drawing(axes, 7.0, 3.4) as axes:
         axes.plot(profile.y, profile.z, **{
             "label": pathlib.Path(profile.path).name or profile.kind, **options})
-        axes.set_aspect("equal", adjustable="datalim")
-        if not axes.yaxis_inverted():
-            axes.invert_yaxis()
-        axes.set_xlabel("$y$ to the field side, mm")
-        axes.set_ylabel("$z$ (down), mm")
+        _profile_axes(axes, adjustable="datalim")
     return axes
 
 
@@ -156,10 +155,7 @@ def draw_centre_line(axes: Any, strips: Strips) -> None:
         axes.plot(y, np.concatenate([[0.0], strips.p0[here], [0.0]]), color=look.colour,
                   linestyle=look.line, linewidth=look.width, marker="o", markersize=3.2,
                   clip_on=False)
-    axes.set_ylim(bottom=0.0)
-    axes.set_xlabel(Y_LABEL)
-    axes.set_ylabel("pressure at $x$ = 0, MPa")
-    style.title(axes, "Pressure")
+    axes.set(ylim=(0.0, None), xlabel=Y_LABEL, ylabel="pressure at $x$ = 0, MPa", title="Pressure")
 
 
 def draw_tractions(axes: Any, elements: Elements, strips: Optional[Strips] = None) -> None:
@@ -253,9 +249,7 @@ def _patch_axes(axes: Any, title: str) -> None:
     axes.margins(0.05)
     axes.autoscale_view()
     axes.grid(False)
-    axes.set_xlabel(Y_LABEL)
-    axes.set_ylabel(X_LABEL)
-    style.title(axes, title)
+    axes.set(xlabel=Y_LABEL, ylabel=X_LABEL, title=title)
 
 
 def plot_profiles(wheel: Union[str, Profile], rail: Union[str, Profile],
@@ -281,9 +275,7 @@ def plot_profiles(wheel: Union[str, Profile], rail: Union[str, Profile],
     """
     y_rail, z_rail = draw_profile(rail, "rail", inclination=inclination, cant=cant)
     y_wheel, z_wheel = draw_profile(wheel, "wheel")
-    with _styled():
-        if axes is None:
-            axes = _new_figure(7.0, 3.4).subplots()
+    with _drawing(axes, 7.0, 3.4) as axes:
         if gap is not None:
             place = gap.y_rail, float(np.interp(gap.y_rail, y_rail, z_rail))
             y_wheel = y_wheel + place[0] - gap.y_wheel
@@ -294,10 +286,6 @@ def plot_profiles(wheel: Union[str, Profile], rail: Union[str, Profile],
         axes.plot(y_rail, z_rail, color=style.DARK, linewidth=2.0, zorder=3, label="rail")
         if gap is not None:
             axes.plot(*place, zorder=4, **{**style.CONTACT, "label": "contact"})
-        axes.set_aspect("equal")
-        if not axes.yaxis_inverted():
-            axes.invert_yaxis()
-        axes.set_xlabel("$y$ to the field side, mm")
-        axes.set_ylabel("$z$ (down), mm")
+        _profile_axes(axes)
         axes.legend(loc="lower right")
     return axes

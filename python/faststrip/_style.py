@@ -30,6 +30,12 @@ class Look:
     line: Any
     width: float = 1.8
 
+    @property
+    def line_style(self) -> Dict[str, Any]:
+        """What matplotlib's ``plot`` takes of it."""
+        return {"color": self.colour, "linestyle": self.line, "linewidth": self.width,
+                "label": self.label}
+
 
 NORMAL: Dict[str, Look] = {
     "strip": Look("strips", "#0b3c78", "-", 2.0),
@@ -63,6 +69,8 @@ CONTACT: Dict[str, Any] = dict(
 PARAMETERS: Dict[str, Any] = {
     "font.size": FONT,
     "axes.titlesize": FONT,
+    "axes.titlelocation": "left",
+    "axes.titleweight": "bold",
     "axes.labelsize": FONT,
     "xtick.labelsize": SMALL,
     "ytick.labelsize": SMALL,
@@ -100,8 +108,3 @@ def method_look(normal: str, tangential: str) -> Look:
 def number(value: float) -> str:
     """A short number for titles, with a true minus sign and no negative zero."""
     return f"{value + 0.0:g}".replace("-", "\N{MINUS SIGN}")
-
-
-def title(axes: Any, text: str) -> None:
-    """Title of a panel, flush left."""
-    axes.set_title(text, loc="left", fontweight="bold")

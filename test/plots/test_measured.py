@@ -12,6 +12,7 @@ from plot_samples import Folder, csv_text, load
 
 # isort: split
 from faststrip_plots import scales, style
+from faststrip_plots.tables import read_table
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CURVES = "out/curves.csv"
@@ -277,7 +278,7 @@ class Drawn(unittest.TestCase):
     def decays(self, rows):
         degrees = load("degrees")
         with Folder({"d.csv": text(DEGREES, rows)}) as folder:
-            table = degrees.read_table(str(folder.path / "d.csv"))
+            table = read_table(str(folder.path / "d.csv"))
         return degrees, {basis: degrees.Decay(table, own)
                          for basis, own in scales.groups(table.words("basis"))}
 
@@ -328,7 +329,7 @@ class Drawn(unittest.TestCase):
     def test_labels_of_the_trade_keep_clear(self):
         bench = load("bench_integral")
         with Folder({"b.csv": text(INTEGRAL)}) as folder:
-            table = bench.read_table(str(folder.path / "b.csv"))
+            table = read_table(str(folder.path / "b.csv"))
         ns = table.numbers("ns")
         error = np.maximum(table.numbers("rel_err"), bench.FLOOR)
         dots = [(method, loop, bench.spread(ns[rows]), bench.spread(error[rows]))
