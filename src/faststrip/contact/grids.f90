@@ -26,8 +26,7 @@ module faststrip_contact_grids
     !> Tuned [grids]. Origin: chosen for the time.
     integer, parameter :: most_grids = 3
     ! Tuned [strips]: across where grids follow, unless the area is wanted: their own estimate of
-    ! the area falls slowly. As many elements begin where the largest grid is not expected to do:
-    ! their estimate tells. Origin: measured, 134 contacts of the families of `force-data`; 31 and
+    ! the area falls slowly. Origin: measured, 134 contacts of the families of `force-data`; 31 and
     ! 61 move 5 and 7 of 160 answers.
     integer, parameter :: most_strips = 41
     !> Elements across a patch at least.
@@ -37,6 +36,12 @@ module faststrip_contact_grids
     ! 1.3, as of strips, moves 12 of 160 answers by up to 1.1 %; 5 sends a contact of `./run net` to
     ! another grid.
     real(wp), parameter :: least_growth = 1.4_wp, largest_growth = 3.0_wp
+    ! Tuned [elements]: across where the largest grid is not expected to do: their estimate tells.
+    ! Origin: chosen for the time.
+    real(wp), parameter :: telling_across = 30.0_wp
+    ! Tuned [1]: a finer grid is not tried where the finest would be expected to miss by more than
+    ! this factor. Origin: chosen for the time: without, hopeless contacts take half a minute.
+    real(wp), parameter :: largest_miss = 10.0_wp
     ! Tuned [1]: of what is left of a budget, planned for a grid of which no time is known. Origin:
     ! chosen.
     real(wp), parameter :: share_of_budget = 0.6_wp
@@ -102,7 +107,7 @@ contains
                                                    real(coarse%methods%strips_per_patch, wp), &
                                                    coarse%estimate))
         end associate
-        if (across > grid%most_across) across = min(real(most_strips, wp), grid%most_across)
+        if (across > grid%most_across) across = min(telling_across, grid%most_across)
         if (wanted%budget_us > 0.0_wp) then
             across = min(across, sqrt(share_of_budget*max(wanted%budget_us - spent_us, 0.0_wp) &
                                       /wanted%others%one_us))
@@ -121,9 +126,12 @@ contains
         type(auto_step_t), intent(in) :: step !! what came of it
         real(wp), intent(in) :: spent_us      !! all time so far, us
 
-        real(wp) :: growth
+        real(wp) :: growth, reach
 
         if (step%estimate >= unknown_error .or. last%number >= most_grids) return
+        reach = min(last%most_across/last%across, largest_growth**(most_grids - last%number))
+        if (wanted%tolerance > 0.0_wp .and. wanted%budget_us <= 0.0_wp .and. &
+            step%estimate > largest_miss*wanted%tolerance*reach**wanted%others%order) return
         growth = min(last%most_across/last%across, largest_growth)
         if (wanted%tolerance > 0.0_wp) &
             growth = min(growth, max(least_growth, (step%estimate/(margin*wanted%tolerance)) &
