@@ -14,7 +14,7 @@ module faststrip_files_lines
     implicit none
     private
 
-    public :: text_file_t, open_text, find_line, read_line, close_text, is_folder
+    public :: text_file_t, open_text, find_line, read_line, close_text, is_folder, longest_line
     public :: place_t, place_in, go_to_place, count_anew
 
     ! What is longer has no end, or is no table: the longest table the program writes itself has a

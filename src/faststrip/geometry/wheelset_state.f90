@@ -10,23 +10,20 @@ module faststrip_geometry_wheelset_state
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: largest_place
+    use faststrip_base_limits, only: largest_place, largest_ratio
     use faststrip_base_plausible, only: quantities, likely_mistake, of_turn
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_argument
     implicit none
     private
 
-    public :: wheelset_state_t, wheelset_axes_t, rail_state_t, largest_creepage
+    public :: wheelset_state_t, wheelset_axes_t, rail_state_t
     public :: mirrored_state, reversed_state, is_at_rest, check_state, wheelset_axes, &
               rigid_creepage, rail_velocity, cross
 
-    ! Tuned [rad]: roll, yaw and contact angles beyond are refused. Origin: safeguard: lines of a
-    ! wheel that is turned farther have no meaning.
+    ! Roll, yaw and contact angles beyond are refused, rad: lines of a wheel that is turned farther
+    ! have no meaning.
     real(wp), parameter :: largest_turn = quantities(of_turn)%possible
-    !> Creepages are not larger than this.
-    !> Tuned [1, rad/mm]. Origin: chosen: what methods take; all of any contact slides long before.
-    real(wp), parameter :: largest_creepage = 1.0e6_wp
 
     !> How a rail lies and moves beside its place in the design, in the track frame; it is turned
     !> about the origin of its profile.
@@ -220,11 +217,11 @@ contains
         slip = -[velocity(1), velocity(2)*cos(angle) + velocity(3)*sin(angle), &
                  turning(3)*cos(angle) - turning(2)*sin(angle)]
         fastest = maxval(abs(slip))
-        if (speed > 0.0_wp .and. fastest/largest_creepage <= speed) then
+        if (speed > 0.0_wp .and. fastest/largest_ratio <= speed) then
             slip = slip/speed
         else if (fastest > 0.0_wp) then
-            slip = largest_creepage*(slip/fastest)
-            speed = fastest/largest_creepage
+            slip = largest_ratio*(slip/fastest)
+            speed = fastest/largest_ratio
         else
             return
         end if

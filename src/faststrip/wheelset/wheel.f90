@@ -2,6 +2,7 @@
 module faststrip_wheelset_wheel
     use faststrip_base_friction, only: friction_at_angle, largest_speed
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_ratio
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_out_of_range
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, estimate_contact, &
@@ -17,7 +18,7 @@ module faststrip_wheelset_wheel
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_origin, on_rail_profile
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
                                                  rail_state_t, rigid_creepage, rail_velocity, &
-                                                 cross, largest_creepage
+                                                 cross
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
                                         wheel_workspace_t
     implicit none
@@ -217,7 +218,7 @@ contains
         call rigid_creepage(state, axes, point, frame%angle, contact%creepage, contact%speed, &
                             rail_velocity(rail, frame%origin(2:3) - rail_origin(pair, rail)))
         associate (c => contact%creepage)
-            if (max(abs(c%cksi), abs(c%ceta), abs(c%cphi)) >= largest_creepage &
+            if (max(abs(c%cksi), abs(c%ceta), abs(c%cphi)) >= largest_ratio &
                 .and. case%methods%tangential == tangential_linear) then
                 call set_status(contact%status, st_out_of_range, 'linear forces have no limit ' // &
                                 'where a wheelset slides but hardly rolls: take another method')
