@@ -41,7 +41,7 @@ class Docstrings(HostTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.faststrip = cls.import_package()
-        cls.units = {name: unit for name, (unit, _) in importlib.import_module(
+        cls.units = {name: unit for name, (unit, *_) in importlib.import_module(
             "faststrip._tables").QUANTITIES.items()}
         public = [getattr(cls.faststrip, name) for name in cls.faststrip.__all__]
         cls.classes = [one for one in public if inspect.isclass(one)
