@@ -10,8 +10,8 @@ program faststrip_lab
     use faststrip_lab_forces_features, only: run_force_features
     use faststrip_lab_grid_bench, only: run_bench
     use faststrip_lab_studies_reference_scenes, only: run_scenes
-    use faststrip_lab_promises, only: run_promises
-    use faststrip_lab_promises_truths, only: run_truth
+    use faststrip_lab_claims, only: run_claims
+    use faststrip_lab_claims_truths, only: run_truth
     implicit none
     ! Alike the other program on purpose: two short lists of subcommands, nothing to share.
 
@@ -21,7 +21,7 @@ program faststrip_lab
     case ('bench'); call run_bench()
     case ('fuzz'); call run_fuzz()
     case ('scenes'); call run_scenes()
-    case ('promises'); call run_promises()
+    case ('claims'); call run_claims()
     case ('truth'); call run_truth()
     case ('errata'); call run_errata()
     case ('force-data'); call run_force_data()
@@ -49,7 +49,7 @@ contains
         call say('  force-data             reference forces of random contacts')
         call say('  force-features FILE... forces of FASTSTRIP beside these')
         call say('  fuzz                   random gaps, checked')
-        call say('  promises               what the methods make of contacts that are known')
+        call say('  claims               what the methods make of contacts that are known')
         call say('  scenes                 reference forces of many contacts')
         call say('  truth                  figures of contacts that nothing was fitted to')
         call say('')

@@ -17,7 +17,7 @@ module faststrip_tabulate_make
 
     public :: begin_table, solve_units, make_refined
 
-    !> The promise is judged by the states of this seed, the next round's by others.
+    !> The claim is judged by the states of this seed, the next round's by others.
     !> Given: a number.
     integer, parameter, public :: first_seed = 100
 
@@ -100,7 +100,7 @@ contains
     end subroutine solve_some
 
     !> Refine axes and make tables until one is good enough; the best of them is the answer. Where
-    !> contacts come or go a table may be worse than was asked for: its promise says so.
+    !> contacts come or go a table may be worse than was asked for: its claim says so.
     subroutine make_refined(family, error, order, tests, lookup, status)
         class(family_t), intent(inout) :: family !! with its solvers
         real(wp), intent(in) :: error            !! that is asked for
@@ -177,7 +177,7 @@ contains
                              // trim(number_text(error)) // ', got ' &
                              // trim(number_text(best(states_changing))) // '; cells of y are ' &
                              // 'down to ' // trim(number_text(shortest(lookup%wheel%y))) // ' mm')
-        ! A promise holds everywhere, or it is none.
+        ! A claim holds everywhere, or it is none.
         lookup%promised = max(error, best(states_changing))
     end subroutine make_refined
 

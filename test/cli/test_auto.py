@@ -176,7 +176,7 @@ class Auto(ProgramTest):
         self.assertEqual(len(steps_of(row)), 1)
         row = self.auto(case, "--budget-us", "1", "--force-limit", "1")
         self.assertEqual(row["status"], "ok")
-        # Of bytes, which time decides, the result promises nothing.
+        # Of bytes, which time decides, the result claims nothing.
         self.assertIn("# within a budget of time, which another run may spend otherwise: its bytes "
                       "may differ\n", done.stdout)
         self.assertNotIn("budget", self.run_program("contact", case, "--normal", "auto").stdout)

@@ -85,7 +85,7 @@ class LookupWheel(ProgramTest):
         self.assertRegex(text, r"y, mm: 13 nodes, 6\.0\d* to 9\.5")
         shortest = float(re.search(r"shortest cell of y: (\S+) mm", text)[1])
         self.assertAlmostEqual(shortest, 3.5 / 12, places=4)
-        # The promise is that of the worse of both kinds of states.
+        # The claim is that of the worse of both kinds of states.
         self.assertGreater(float(re.search(r"made for a 99th percentile of (\S+)", text)[1]), 0.4)
         fine = self.good("lookup", "info", self.table())
         self.assertGreaterEqual(float(re.search(r"shortest cell of y: (\S+) mm", fine)[1]), 0.01999)

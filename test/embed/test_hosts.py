@@ -9,7 +9,7 @@ import unittest
 import methods
 from installed import HOSTS, ROOT, HostTest
 
-# Bytes of stack a call may need; README and header promise less than 64 kB.
+# Bytes of stack a call may need; README and header claim less than 64 kB.
 MOST_STACK = 64 * 1024
 
 

@@ -74,7 +74,7 @@ class InACopy(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
         for name in ("README.md", "CONTRIBUTING.md", validation.MEASURED, validation.MANIFEST,
-                     validation.PROMISES, validation.ESTIMATED, validation.SPEED,
+                     validation.CLAIMS, validation.ESTIMATED, validation.SPEED,
                      validation.PAINTED, validation.SCALE):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.root / name)

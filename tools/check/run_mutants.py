@@ -87,7 +87,7 @@ OWN_STAGES = {
     "command": [("python", ["test/cli"])],
     "netcdf": [("python", ["test/cli/test_netcdf.py"])],
     "tabulate": [("python", ["test/cli/test_lookup.py", "test/cli/test_lookup_wheel.py"])],
-    "lab": [("python", ["test/cli/test_promises.py", "test/cli/test_force_data.py"])],
+    "lab": [("python", ["test/cli/test_claims.py", "test/cli/test_force_data.py"])],
     "python": [("installed", [*INTERFACES[:3], INTERFACES[-1]])],
     "plots": [("python", ["test/plots"])],
     "tools": [("python", ["test/tools/test_blocks.py"])],

@@ -37,8 +37,8 @@ from pages import FENCE  # noqa: E402
 
 MEASURED = "reference/measured.csv"
 MANIFEST = "reference/comparisons.csv"
-PROMISES = "reference/promises/promises.csv"
-ESTIMATED = "reference/promises/estimates.csv"
+CLAIMS = "reference/claims/claims.csv"
+ESTIMATED = "reference/claims/estimates.csv"
 SPEED = "reference/speed.csv"
 PAINTED = "reference/page.csv"
 SCALE = "reference/scale.csv"
@@ -288,8 +288,8 @@ def estimates_table(figures):
                                         for row in figures.measured.rows("estimates"))])
 
 
-def promises_table(figures):
-    given = read_table(str(figures.root / PROMISES),
+def claims_table(figures):
+    given = read_table(str(figures.root / CLAIMS),
                        ("target", "tolerance", "promised", "kept", *PROMISED))
     numbers = {name: given.numbers(name, missing=True) for name in ("tolerance", *PROMISED)}
     return table(["target and tolerance", "claims held", "largest error over tolerance",
@@ -447,7 +447,7 @@ TABLES = {
     "scale": scale_table,
     "extremes": extremes_table,
     "estimates": estimates_table,
-    "promises": promises_table,
+    "claims": claims_table,
     "force estimates": force_estimates_table,
     "statements": statements_table,
     "stamp": stamp,
@@ -488,13 +488,13 @@ SECTIONS = (
      " second of the 20 contacts and on random gaps of other distributions.", "estimates"),
     ("Coverage of the force error estimates",
      "The same of the creep forces, on contacts of 15 kinds that nothing was fitted to and on"
-     " ellipses, each with two creepages (`faststrip-lab promises`; NORM and TANG, extrapolated,"
+     " ellipses, each with two creepages (`faststrip-lab claims`; NORM and TANG, extrapolated,"
      " are the reference).", "force estimates"),
     ("Coverage of automatic solutions",
      "On the same contacts, by the program itself: status `ok` claims an error within the"
      " tolerance. Times are summed over the contacts: against always 31 strips with FASTSTRIP"
      " where their own estimates are within the tolerance, and where their errors are, which"
-     " nobody knows; and against always NORM and TANG with 36 elements across.", "promises"),
+     " nobody knows; and against always NORM and TANG with 36 elements across.", "claims"),
     ("Error against time",
      "The worst of Fx, Fy, Mz, in percent of mu N and mu N c; times of both stages together on one"
      " core, cold (`bench trade`).", "trade"),

@@ -1,10 +1,10 @@
-!> `faststrip-lab promises`: what the program makes of the contacts of `faststrip-lab truth` by each
+!> `faststrip-lab claims`: what the program makes of the contacts of `faststrip-lab truth` by each
 !> method of a list, automatic ones among them: errors, their estimates, status and time.
 !>
 !> Contacts are solved through the program's own solver, as a row of `faststrip batch` is. Kalker's
 !> methods with elements across the patch take these from the truth, which a user would have to find
 !> first: their times are the least they can be.
-module faststrip_lab_promises
+module faststrip_lab_claims
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, number_text
     use faststrip_base_text, only: integer_text
@@ -25,14 +25,14 @@ module faststrip_lab_promises
     use faststrip_lab_grid_method_list, only: method_entry_t, read_method_list
     use faststrip_lab_checkout, only: in_checkout
     use faststrip_lab_grid_cases, only: bench_case_t, read_ellipse_cases
-    use faststrip_lab_promises_contacts, only: promise_contact_t, find_promise_contact, &
-                                               promise_kinds
-    use faststrip_lab_promises_record, only: truth_record_t, take_truth, n_figures, figure_names, &
+    use faststrip_lab_claims_contacts, only: claim_contact_t, find_claim_contact, &
+                                               claim_kinds
+    use faststrip_lab_claims_record, only: truth_record_t, take_truth, n_figures, figure_names, &
                                              figure_units
     implicit none
     private
 
-    public :: run_promises
+    public :: run_claims
 
     ! How often a method goes through all contacts, unless that takes longer than this, us.
     integer, parameter :: most_rounds = 5
@@ -43,13 +43,13 @@ module faststrip_lab_promises
     !> What is true, and the gap it is true of.
     type :: judged_t
         type(truth_record_t) :: truth
-        type(promise_contact_t) :: contact
+        type(claim_contact_t) :: contact
     end type judged_t
 
 contains
 
     !> Run the subcommand from the command line.
-    subroutine run_promises()
+    subroutine run_claims()
         type(command_t) :: command
         type(csv_writer_t) :: writer
         type(method_entry_t), allocatable :: entries(:)
@@ -57,25 +57,25 @@ contains
         character(len=:), allocatable :: truth, methods, folder
         integer :: i, thinning
 
-        command%name = 'promises'
+        command%name = 'claims'
         command%usage = ''
         command%about = &
             'For developers: errors, estimates, status and time of every method of a list, auto' &
             // new_line('a') // 'with its tolerances too, on contacts whose figures are known.' &
             // ' CSV, one row for each' // new_line('a') // 'contact and method.' // new_line('a')
         command%options = [ &
-            option_t('--truth', 'FILE', 'the contacts (default reference/promises/truth.csv)', &
+            option_t('--truth', 'FILE', 'the contacts (default reference/claims/truth.csv)', &
                      reads=.true.), &
             option_t('--methods', 'FILE', &
-                     'the methods (default reference/promises/methods.csv)', reads=.true.), &
+                     'the methods (default reference/claims/methods.csv)', reads=.true.), &
             option_t('--every', 'INTEGER', 'take one of so many contacts (default 1)'), &
             option_t('--cases', 'FOLDER', &
                      'instead write the contacts there, as cases.csv of faststrip batch and its' &
                      // ' gap' // new_line('a') // 'files'), &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
         call parse_command(command, 0)
-        truth = option_text(command, '--truth', in_checkout('reference/promises/truth.csv'))
-        methods = option_text(command, '--methods', in_checkout('reference/promises/methods.csv'))
+        truth = option_text(command, '--truth', in_checkout('reference/claims/truth.csv'))
+        methods = option_text(command, '--methods', in_checkout('reference/claims/methods.csv'))
         thinning = option_integer(command, '--every', 1, least=1, most=most_thinning)
         call take_input(truth)
         call take_input(methods)
@@ -83,8 +83,8 @@ contains
         call read_method_list(methods, entries)
         if (folder /= '') then
             call take_output(folder // '/cases.csv', '--cases')
-            do i = 1, size(promise_kinds)
-                call take_beside(folder // '/' // trim(promise_kinds(i)) // '_', '--cases', &
+            do i = 1, size(claim_kinds)
+                call take_beside(folder // '/' // trim(claim_kinds(i)) // '_', '--cases', &
                                  is_beginning=.true.)
             end do
         end if
@@ -108,7 +108,7 @@ contains
             call judge_method(writer, entries(i), contacts)
         end do
         call end_table(writer)
-    end subroutine run_promises
+    end subroutine run_claims
 
     !> The contacts of a file of truths; ends the program if it cannot be read.
     subroutine read_contacts(file, thinning, contacts)
@@ -129,7 +129,7 @@ contains
             associate (truth => contacts(i)%truth, contact => contacts(i)%contact)
                 call take_truth(table, 1 + (i - 1)*thinning, truth, status)
                 call fail_on_error(status)
-                call find_promise_contact(ellipses, truth%kind, truth%number, contact, status)
+                call find_claim_contact(ellipses, truth%kind, truth%number, contact, status)
                 call fail_on_error(status, file)
                 contact%load = truth%load
                 contact%mu = truth%mu
@@ -154,7 +154,7 @@ contains
         call put_header(writer, case_columns)
         do i = 1, size(contacts)
             associate (truth => contacts(i)%truth)
-                name = trim(promise_kinds(truth%kind)) // '_' // integer_text(truth%number)
+                name = trim(claim_kinds(truth%kind)) // '_' // integer_text(truth%number)
                 call put_cell(writer, name // '_' // integer_text(truth%state))
                 call put_cell(writer, name // '.csv')
                 associate (numbers => [truth%material%e_rail, truth%material%nu_rail, truth%mu, &
@@ -254,7 +254,7 @@ contains
         logical :: counts(n_figures), is_estimated(n_estimates)
         integer :: i
 
-        call put_cell(writer, trim(promise_kinds(truth%kind)))
+        call put_cell(writer, trim(claim_kinds(truth%kind)))
         call put_cell(writer, truth%number)
         call put_cell(writer, truth%state)
         call put_cell(writer, method)
@@ -313,4 +313,4 @@ contains
         end associate
         errors = (found - truth%figures)/figure_units(truth)
     end function errors_of
-end module faststrip_lab_promises
+end module faststrip_lab_claims

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draw promises of auto against the truth, estimates against errors, and errors against time."""
+"""Draw claims of auto against the truth, estimates against errors, and errors against time."""
 
 import os
 import sys
@@ -9,13 +9,13 @@ from matplotlib.ticker import NullLocator
 
 from faststrip_plots import command, picture, style
 from faststrip_plots.document import announce
-from faststrip_plots.promises import (
+from faststrip_plots.claims import (
     TARGETS,
     UPPER,
     Judged,
     front,
     largest_gap,
-    promise_rows,
+    claim_rows,
     promised,
     target_error,
     target_time,
@@ -53,17 +53,17 @@ WIDTH = 0.36  # of a column of contacts, of the distance of tolerances
 
 def main(arguments=None):
     options = command.options(__doc__, arguments, {
-        "results": ("out/promises.csv", "what `faststrip-lab promises` wrote"),
-        "truth": ("reference/promises/truth.csv", "what `faststrip-lab truth` wrote"),
-        "methods": ("reference/promises/methods.csv", "the methods that were asked for")},
-        folder=("out/promises", "pictures go there"))
+        "results": ("out/claims.csv", "what `faststrip-lab claims` wrote"),
+        "truth": ("reference/claims/truth.csv", "what `faststrip-lab truth` wrote"),
+        "methods": ("reference/claims/methods.csv", "the methods that were asked for")},
+        folder=("out/claims", "pictures go there"))
     judged = Judged(options.results, options.truth, options.methods)
     stamps = [revision(judged.table)]
     count = f"{len(judged)} contacts of kinds that nothing was fitted to"
     pictures = [
-        (promises_figure(judged), "promises.png", "Promises and the truth",
-         "Each point is a contact solved by auto for one target and tolerance. Status ok promises"
-         " an error below the tolerance, the stair; target_missed promises nothing."),
+        (claims_figure(judged), "claims.png", "Claims and the truth",
+         "Each point is a contact solved by auto for one target and tolerance. Status ok claims"
+         " an error below the tolerance, the stair; target_missed claims nothing."),
         (estimates_figure(judged), "estimates.png", "Estimates and errors",
          "Estimated against true errors of the forces, contact by contact. Points below the"
          " diagonal are bounded."),
@@ -80,16 +80,16 @@ def main(arguments=None):
     announce(options.folder, "figures.csv", rows)
 
 
-def promises_figure(judged):
+def claims_figure(judged):
     """Errors contact by contact at each tolerance, one panel a target."""
     targets = [target for target in TARGETS if judged.auto(target)]
     if not targets:
         return None
     figure = style.new_figure(12.0, 4.1 * ((len(targets) + 1) // 2))
     panels = figure.subplots((len(targets) + 1) // 2, 2, sharey=True, squeeze=False).ravel()
-    shares = {(row["target"], row["tolerance"]): row for row in promise_rows(judged)}
+    shares = {(row["target"], row["tolerance"]): row for row in claim_rows(judged)}
     for axes, target in zip(panels, targets):
-        draw_promises(axes, judged.auto(target), target, shares)
+        draw_claims(axes, judged.auto(target), target, shares)
     for axes in panels[len(targets):]:
         axes.set_visible(False)
     for axes in panels[::2]:
@@ -100,7 +100,7 @@ def promises_figure(judged):
     return figure
 
 
-def draw_promises(axes, solved, target, shares):
+def draw_claims(axes, solved, target, shares):
     """One panel: a column of contacts for each tolerance, in the order of their errors."""
     for place, each in enumerate(solved):
         tolerance = each.method.tolerance
@@ -109,8 +109,8 @@ def draw_promises(axes, solved, target, shares):
         good = error <= 100.0 * tolerance
         for rows, colour, size, label in (
                 (~word & each.has_result, NONE, 8.0, "nothing promised"),
-                (word & good, KEPT, 5.0, "promise kept"),
-                (word & ~good, BROKEN, 14.0, "promise broken")):
+                (word & good, KEPT, 5.0, "claim kept"),
+                (word & ~good, BROKEN, 14.0, "claim broken")):
             values = np.sort(error[rows])
             x = place + np.linspace(-WIDTH, WIDTH, len(values)) if len(values) > 1 else \
                 np.full(len(values), float(place))
@@ -124,7 +124,7 @@ def draw_promises(axes, solved, target, shares):
     axes.set_xticks(range(len(solved)),
                     [f"{100.0 * each.method.tolerance:g} %" for each in solved])
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xlabel("tolerance; above: promises kept of those given")
+    axes.set_xlabel("tolerance; above: claims kept of those given")
     axes.yaxis.set_major_formatter("{x:g}")
     axes.set_title(HEADINGS[target])
 

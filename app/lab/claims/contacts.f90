@@ -1,9 +1,9 @@
-!> The contacts on which promises are judged: contact `number` of a kind is always the same one.
+!> The contacts on which claims are judged: contact `number` of a kind is always the same one.
 !> Most are drawn; ellipses are those of `reference/contact/hertz_creep.csv`, by their rows.
 !>
 !> Loads, friction and materials are round numbers, so that they stand in the table of the truth as
 !> they are solved; creepages are drawn when the patch is known.
-module faststrip_lab_promises_contacts
+module faststrip_lab_claims_contacts
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      number_text, count_text, st_out_of_range
@@ -18,16 +18,16 @@ module faststrip_lab_promises_contacts
     use faststrip_lab_grid_cases, only: bench_case_t
     use faststrip_lab_pressures, only: largest_patch
     use faststrip_lab_random_numbers, only: random_t, start_random, uniform, log_uniform, chance
-    use faststrip_lab_random_promise_gaps, only: draw_promise_gap, gap_kinds
-    use faststrip_lab_promises_wheelsets, only: draw_wheelset_gap
+    use faststrip_lab_random_claim_gaps, only: draw_claim_gap, gap_kinds
+    use faststrip_lab_claims_wheelsets, only: draw_wheelset_gap
     implicit none
     private
 
-    public :: promise_contact_t, find_promise_contact, draw_promise_creepages
-    public :: promise_kinds, states_drawn
+    public :: claim_contact_t, find_claim_contact, draw_claim_creepages
+    public :: claim_kinds, states_drawn
 
     !> What the kinds of contacts are called.
-    character(len=12), parameter :: promise_kinds(3 + size(gap_kinds)) = &
+    character(len=12), parameter :: claim_kinds(3 + size(gap_kinds)) = &
         [[character(len=12) :: 'ellipse', 'new_wheel', 'worn_wheel'], gap_kinds]
     !> Creepages of one contact.
     integer, parameter :: states_drawn = 2
@@ -37,27 +37,27 @@ module faststrip_lab_promises_contacts
     real(wp), parameter :: youngs = 2.1e5_wp, steel = 0.28_wp ! MPa, -
 
     !> One contact.
-    type, extends(contact_case_t) :: promise_contact_t
-        integer :: kind = 0             !! index of `promise_kinds`
+    type, extends(contact_case_t) :: claim_contact_t
+        integer :: kind = 0             !! index of `claim_kinds`
         integer :: number = 0           !! of the kind, from 1
         type(random_t) :: random        !! for the creepages
         logical :: has_motion = .false. !! is `creepage` that of a wheelset?
-    end type promise_contact_t
+    end type claim_contact_t
 
 contains
 
     !> A contact, if it is drawn but for its creepages.
-    subroutine find_promise_contact(ellipses, kind, number, contact, status)
+    subroutine find_claim_contact(ellipses, kind, number, contact, status)
         type(bench_case_t), intent(in) :: ellipses(:)   !! of CONTACT
-        integer, intent(in) :: kind                     !! index of `promise_kinds`
+        integer, intent(in) :: kind                     !! index of `claim_kinds`
         integer, intent(in) :: number                   !! from 1
-        type(promise_contact_t), intent(out) :: contact !! gap, load, material, friction
+        type(claim_contact_t), intent(out) :: contact !! gap, load, material, friction
         type(status_t), intent(out) :: status           !! `st_out_of_range`: no such number
 
         call clear_status(status)
         contact%kind = kind
         contact%number = number
-        if (promise_kinds(kind) /= 'ellipse') then
+        if (claim_kinds(kind) /= 'ellipse') then
             call draw_contact(contact)
         else if (number > size(ellipses)) then
             call set_status(status, st_out_of_range, 'there is no ellipse ' &
@@ -65,10 +65,10 @@ contains
         else
             contact%contact_case_t = ellipses(number)%contact_case_t
         end if
-    end subroutine find_promise_contact
+    end subroutine find_claim_contact
 
     subroutine draw_contact(contact)
-        type(promise_contact_t), intent(inout) :: contact ! kind and number
+        type(claim_contact_t), intent(inout) :: contact ! kind and number
 
         real(wp) :: poisson
 
@@ -79,13 +79,13 @@ contains
         if (chance(contact%random, 0.3_wp)) &
             poisson = rounded(uniform(contact%random, 0.2_wp, 0.35_wp))
         contact%material = material_t(youngs, youngs, poisson, poisson)
-        associate (kind => promise_kinds(contact%kind))
+        associate (kind => claim_kinds(contact%kind))
             contact%has_motion = index(kind, 'wheel') > 0
             if (contact%has_motion) then
                 call draw_wheelset_gap(contact%random, kind == 'worn_wheel', contact%gap, &
                                        contact%creepage)
             else
-                call draw_promise_gap(contact%random, kind, normal_compliance(contact%material), &
+                call draw_claim_gap(contact%random, kind, normal_compliance(contact%material), &
                                       contact%load, contact%gap)
             end if
         end associate
@@ -95,8 +95,8 @@ contains
     !> hundred times that, one state about the onset of sliding, the other from there to full
     !> sliding; in two of three states with spin. The first state of a wheelset is that of its
     !> motion.
-    subroutine draw_promise_creepages(contact, strips, creepages, status)
-        type(promise_contact_t), intent(inout) :: contact !! drawn
+    subroutine draw_claim_creepages(contact, strips, creepages, status)
+        type(claim_contact_t), intent(inout) :: contact !! drawn
         type(contact_strips_t), intent(in) :: strips      !! its normal solution
         type(creepage_t), intent(out) :: creepages(states_drawn) !! about y = 0
         type(status_t), intent(out) :: status             !! from `kalker_coefficients`
@@ -133,7 +133,7 @@ contains
         if (.not. contact%has_motion) return
         creepages(1) = creepage_t(rounded(contact%creepage%cksi), rounded(contact%creepage%ceta), &
                                   rounded(contact%creepage%cphi))
-    end subroutine draw_promise_creepages
+    end subroutine draw_claim_creepages
 
     !> The number as a table of results has it: six digits.
     real(wp) function rounded(value)
@@ -143,4 +143,4 @@ contains
 
         call parse_real(trim(number_text(value)), rounded, is_valid)
     end function rounded
-end module faststrip_lab_promises_contacts
+end module faststrip_lab_claims_contacts

@@ -1,10 +1,10 @@
-!> Random gaps of kinds that no correction or estimate was fitted to, on which promises are judged.
+!> Random gaps of kinds that no correction or estimate was fitted to, on which claims are judged.
 !>
 !> Shapes are drawn in units of a Hertz ellipse: t = y/b, heights over B b^2. Kinds of
 !> `faststrip_lab_random_gaps` are drawn there; what the others do to that ellipse's gap `t^2`,
 !> 1/(2R) = constant, says `draw_shape`. Families from which is fitted are those of
 !> `faststrip_lab_random_force_gaps`.
-module faststrip_lab_random_promise_gaps
+module faststrip_lab_random_claim_gaps
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
     use faststrip_geometry_gap, only: gap_t
@@ -16,7 +16,7 @@ module faststrip_lab_random_promise_gaps
     implicit none
     private
 
-    public :: draw_promise_gap, gap_kinds
+    public :: draw_claim_gap, gap_kinds
 
     !> What the kinds are called.
     character(len=12), parameter :: gap_kinds(12) = [character(len=12) :: &
@@ -30,7 +30,7 @@ module faststrip_lab_random_promise_gaps
 contains
 
     !> Draw a gap; one draw a statement, for the order within one is the compiler's.
-    subroutine draw_promise_gap(random, kind, compliance, load, gap)
+    subroutine draw_claim_gap(random, kind, compliance, load, gap)
         type(random_t), intent(inout) :: random
         character(len=*), intent(in) :: kind !! one of `gap_kinds`
         real(wp), intent(in) :: compliance   !! H of eq. (4), 1/MPa
@@ -61,7 +61,7 @@ contains
             if (kind == 'noisy') call measure(random, gap)
         end if
         gap%h = gap%h - minval(gap%h)
-    end subroutine draw_promise_gap
+    end subroutine draw_claim_gap
 
     !> Heights and longitudinal terms of a shape in its own units.
     subroutine draw_shape(random, kind, penetration, t, h, a)
@@ -140,4 +140,4 @@ contains
         call smooth_gap(gap, noise, smooth, change, status)
         if (.not. is_error(status)) gap = smooth
     end subroutine measure
-end module faststrip_lab_random_promise_gaps
+end module faststrip_lab_random_claim_gaps

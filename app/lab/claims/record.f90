@@ -1,6 +1,6 @@
-!> What is kept of a contact on which promises are judged: what it is, and what is true of it. One
-!> row of `reference/promises/truth.csv`.
-module faststrip_lab_promises_record
+!> What is kept of a contact on which claims are judged: what it is, and what is true of it. One
+!> row of `reference/claims/truth.csv`.
+module faststrip_lab_claims_record
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, clear_status, is_error, set_status, number_text, &
                                      st_file_format
@@ -9,7 +9,7 @@ module faststrip_lab_promises_record
     use faststrip_base_material, only: material_t
     use faststrip_files_csv, only: csv_writer_t, csv_table_t, put_header, put_cell, end_row, &
                                    read_cell, put_cells
-    use faststrip_lab_promises_contacts, only: promise_kinds
+    use faststrip_lab_claims_contacts, only: claim_kinds
     implicit none
     private
 
@@ -34,7 +34,7 @@ module faststrip_lab_promises_record
 
     !> One contact with one set of creepages.
     type :: truth_record_t
-        integer :: kind = 0            !! index of `promise_kinds`
+        integer :: kind = 0            !! index of `claim_kinds`
         integer :: number = 0          !! of the kind, from 1
         integer :: state = 0           !! which creepages, from 1
         integer :: patches = 0         !! number of contact patches
@@ -80,7 +80,7 @@ contains
         character(len=8) :: doubt
         integer :: i
 
-        call put_cell(writer, trim(promise_kinds(record%kind)))
+        call put_cell(writer, trim(claim_kinds(record%kind)))
         call put_cell(writer, record%number)
         call put_cells(writer, [record%state, record%patches])
         associate (material => record%material, creepage => record%creepage)
@@ -115,7 +115,7 @@ contains
         call clear_status(status)
         call read_cell(table, row, 'kind', kind, status)
         if (is_error(status)) return
-        record%kind = findloc(promise_kinds == kind, .true., dim=1)
+        record%kind = findloc(claim_kinds == kind, .true., dim=1)
         if (record%kind == 0) then
             call set_status(status, st_file_format, 'no such kind of contact: ' &
                             // kind // ' (' // table%file // ', line ' &
@@ -148,4 +148,4 @@ contains
             end do
         end subroutine take_numbers
     end subroutine take_truth
-end module faststrip_lab_promises_record
+end module faststrip_lab_claims_record

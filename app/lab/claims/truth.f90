@@ -11,7 +11,7 @@
 !> In steady rolling the friction power is what the forces do on the creepages. The sum of
 !> tractions on slips is that, too, but lacks 5 % and more where next to nothing slides, as the slip
 !> is at the trailing edge, in less than an element.
-module faststrip_lab_promises_truth
+module faststrip_lab_claims_truth
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, st_ok
     use faststrip_base_creepage, only: creepage_t
@@ -26,7 +26,7 @@ module faststrip_lab_promises_truth
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
-    use faststrip_lab_promises_record, only: truth_record_t, n_figures, figure_units
+    use faststrip_lab_claims_record, only: truth_record_t, n_figures, figure_units
     implicit none
     private
 
@@ -238,4 +238,4 @@ contains
         tip = 1.0_wp
         if (before > last) tip = min(1.0_wp, last**2/(before**2 - last**2))
     end function tip
-end module faststrip_lab_promises_truth
+end module faststrip_lab_claims_truth

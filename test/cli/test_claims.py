@@ -1,4 +1,4 @@
-"""`faststrip-lab truth` and `promises`: a few contacts that nothing was fitted to."""
+"""`faststrip-lab truth` and `claims`: a few contacts that nothing was fitted to."""
 
 import csv
 import math
@@ -6,7 +6,7 @@ import math
 from cli_program import PROGRAM, ROOT, LabTest, numbers, rows_of
 
 HERTZ = ROOT / "reference" / "contact" / "hertz_creep.csv"
-METHODS = ROOT / "reference" / "promises" / "methods.csv"
+METHODS = ROOT / "reference" / "claims" / "methods.csv"
 KINDS = ["ellipse", "new_wheel", "worn_wheel", "several", "small_second", "flat_top", "conformal",
          "wavy", "kinks", "radius_wave", "step", "two_powers", "noisy", "three_places", "corner"]
 FORCES = ("Fx", "Fy", "Mz")
@@ -15,7 +15,7 @@ SOME = "stage,method,when,normal,tangential,strips_per_patch,points_per_strip,fa
        "fastsim_ny,across,target,tolerance\n"
 
 
-class Promises(LabTest):
+class Claims(LabTest):
     def truth(self, *words):
         done = self.share_program("truth", "--across", 16, *words)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -26,7 +26,7 @@ class Promises(LabTest):
     def judge(self, truth, methods, *words):
         self.write("truth.csv", truth)
         self.write("methods.csv", SOME + methods)
-        return self.good("promises", "--truth", "truth.csv", "--methods", "methods.csv", *words)
+        return self.good("claims", "--truth", "truth.csv", "--methods", "methods.csv", *words)
 
     def test_contacts_hold_what_was_asked(self):
         rows = rows_of(self.truth("--each", 2))
@@ -123,7 +123,7 @@ class Promises(LabTest):
         judged = self.judge(truth, "both,strips,always,strip,faststrip,11,9,,,,,\n"
                              "both,auto,always,auto,faststrip,,,,,,penetration,0.1\n", "--every", 3)
         (self.folder / "cases").mkdir()
-        done = self.run_program("promises", "--truth", "truth.csv", "--every", 3, "--cases",
+        done = self.run_program("claims", "--truth", "truth.csv", "--every", 3, "--cases",
                                 "cases")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         self.program = PROGRAM
@@ -160,15 +160,15 @@ class Promises(LabTest):
                             (["--kind", "round"], "round")):
             with self.subTest(words):
                 self.refused(2, "truth", *words, says=[says])
-        self.refused(1, "promises", "--truth", "none.csv", says=["none.csv"])
-        self.refused(2, "promises", "--every", "0", says=["0"])
+        self.refused(1, "claims", "--truth", "none.csv", says=["none.csv"])
+        self.refused(2, "claims", "--every", "0", says=["0"])
         truth = self.truth("--each", 1, "--kind", "step")
         self.write("methods.csv", SOME + "both,strips,always,strip,faststrip,,,,,,,\n")
         for old, new, says in (("\nstep", "\nsteep", "steep"), ("number,", "numbers,", "number"),
                                ("\nstep,1,1,1", "\nstep,1,1,one", "one")):
             with self.subTest(says):
                 self.write("bad.csv", truth.replace(old, new, 1))
-                self.refused(1, "promises", "--truth", "bad.csv", "--methods", "methods.csv",
+                self.refused(1, "claims", "--truth", "bad.csv", "--methods", "methods.csv",
                              says=[says, "bad.csv"])
         self.write("truth.csv", truth)
         for row, says in (("both,x,always,norm,tang,,,,,1,,", "across"),
@@ -178,8 +178,8 @@ class Promises(LabTest):
                           ("both,x,always,auto,tang,,,,,,pmax,0,1", "cells")):
             with self.subTest(row):
                 self.write("methods.csv", f"{SOME}{row}\n")
-                self.refused(1, "promises", "--truth", "truth.csv", "--methods", "methods.csv",
+                self.refused(1, "claims", "--truth", "truth.csv", "--methods", "methods.csv",
                              says=[says, "methods.csv"])
         self.write("methods.csv", SOME + "both,strips,always,strip,faststrip,,,,,,,\n")
-        self.refused(1, "promises", "--truth", "truth.csv", "--methods", "methods.csv",
+        self.refused(1, "claims", "--truth", "truth.csv", "--methods", "methods.csv",
                      "--cases", "/dev/null", says=["/dev/null"])

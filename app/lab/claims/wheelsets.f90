@@ -1,6 +1,6 @@
-!> Random contacts of real profiles, on which promises are judged: S1002 wheels, new or worn, on
+!> Random contacts of real profiles, on which claims are judged: S1002 wheels, new or worn, on
 !> UIC60 and 60E1 rails of several inclinations, wheels of several sizes, gauges and shifts.
-module faststrip_lab_promises_wheelsets
+module faststrip_lab_claims_wheelsets
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_creepage, only: creepage_t
@@ -95,4 +95,4 @@ contains
         end do
         call make_points_profile(y, z, 0.0_wp, wheel, status)
     end subroutine draw_worn_wheel
-end module faststrip_lab_promises_wheelsets
+end module faststrip_lab_claims_wheelsets

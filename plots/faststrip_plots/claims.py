@@ -1,7 +1,7 @@
-"""What `faststrip-lab promises` wrote, judged: promises kept, estimates that bound, errors, times.
+"""What `faststrip-lab claims` wrote, judged: claims kept, estimates that bound, errors, times.
 
-A promise is a row of an automatic method with the status ok: its figure is within the tolerance.
-Any other status promises nothing. Times are those of what the target asks for: of the forces and
+A claim is a row of an automatic method with the status ok: its figure is within the tolerance.
+Any other status claims nothing. Times are those of what the target asks for: of the forces and
 the friction power the whole contact, of the rest the normal problem.
 """
 
@@ -177,7 +177,7 @@ def kept(solved: Solved) -> np.ndarray:
     return target_error(solved, solved.method.target) <= solved.method.tolerance
 
 
-def promise_rows(judged: Judged) -> list[dict]:
+def claim_rows(judged: Judged) -> list[dict]:
     """One row a target and tolerance, all kinds together."""
     rows = []
     for target in TARGETS:
@@ -215,7 +215,7 @@ def promise_rows(judged: Judged) -> list[dict]:
 
 
 def kind_rows(judged: Judged) -> list[dict]:
-    """Promises by kind of contact: promised and kept of each tolerance."""
+    """Claims by kind of contact: promised and kept of each tolerance."""
     rows = []
     for target in TARGETS:
         for solved in judged.auto(target):

@@ -1,4 +1,4 @@
-"""Small results of `faststrip-lab promises`, with the truth and the methods they belong to."""
+"""Small results of `faststrip-lab claims`, with the truth and the methods they belong to."""
 
 FIGURES = ("penetration", "pmax", "area", "Fx", "Fy", "Mz", "friction_power", "stick_fraction")
 HEADER = ("kind,number,state,method,status,normal_us,tangential_us,"

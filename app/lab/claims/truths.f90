@@ -1,5 +1,5 @@
 !> `faststrip-lab truth`: contacts of kinds that nothing was fitted to, and what is true of them.
-module faststrip_lab_promises_truths
+module faststrip_lab_claims_truths
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, st_ok
     use faststrip_base_text, only: integer_text
@@ -10,11 +10,11 @@ module faststrip_lab_promises_truths
                                                  option_integer
     use faststrip_lab_checkout, only: in_checkout
     use faststrip_lab_grid_cases, only: bench_case_t, read_ellipse_cases
-    use faststrip_lab_promises_contacts, only: promise_contact_t, find_promise_contact, &
-                                               draw_promise_creepages, promise_kinds, states_drawn
-    use faststrip_lab_promises_record, only: truth_record_t, put_truth_header, put_truth, &
+    use faststrip_lab_claims_contacts, only: claim_contact_t, find_claim_contact, &
+                                               draw_claim_creepages, claim_kinds, states_drawn
+    use faststrip_lab_claims_record, only: truth_record_t, put_truth_header, put_truth, &
                                              figure_units
-    use faststrip_lab_promises_truth, only: truth_workspace_t, find_patches, find_pressures, &
+    use faststrip_lab_claims_truth, only: truth_workspace_t, find_patches, find_pressures, &
                                             find_figures
     implicit none
     private
@@ -55,7 +55,7 @@ contains
         each = option_integer(command, '--each', usual_each, least=1)
         across = option_integer(command, '--across', usual_across, least=8, most=500)
         name = option_text(command, '--kind', '')
-        only = findloc(promise_kinds == name, .true., dim=1)
+        only = findloc(claim_kinds == name, .true., dim=1)
         if (only == 0 .and. name /= '') &
             call usage_error('--kind must be a kind of contacts, got ' // name, command%name)
         call read_ellipse_cases(in_checkout('reference/contact'), ellipses)
@@ -67,12 +67,12 @@ contains
                          // ' N, of Mz over mu N c, c = sqrt(area/pi); creepages and Mz about' &
                          // ' y = 0')
         call put_truth_header(writer)
-        do kind = 1, size(promise_kinds)
+        do kind = 1, size(claim_kinds)
             if (only > 0 .and. kind /= only) cycle
             do i = 1, each
-                call progress(trim(promise_kinds(kind)), i, each)
+                call progress(trim(claim_kinds(kind)), i, each)
                 number = i
-                if (promise_kinds(kind) == 'ellipse') then
+                if (claim_kinds(kind) == 'ellipse') then
                     number = 1 + ellipse_stride*(i - 1)
                     if (number > size(ellipses)) exit
                 end if
@@ -89,20 +89,20 @@ contains
         type(bench_case_t), intent(in) :: ellipses(:)
         integer, intent(in) :: kind, number, across
 
-        type(promise_contact_t) :: contact
+        type(claim_contact_t) :: contact
         type(creepage_t) :: creepages(states_drawn)
         type(truth_record_t) :: record
         type(status_t) :: status
         integer :: states
 
-        call find_promise_contact(ellipses, kind, number, contact, status)
+        call find_claim_contact(ellipses, kind, number, contact, status)
         if (.not. is_error(status)) call find_patches(work, contact, status)
         if (.not. is_error(status)) then
             states = 1
             creepages(1) = contact%creepage
-            if (promise_kinds(kind) /= 'ellipse') then
+            if (claim_kinds(kind) /= 'ellipse') then
                 states = states_drawn
-                call draw_promise_creepages(contact, work%strips, creepages, status)
+                call draw_claim_creepages(contact, work%strips, creepages, status)
             end if
         end if
         if (.not. is_error(status)) &
@@ -126,7 +126,7 @@ contains
                 call leave_out(', state ' // integer_text(record%state))
                 cycle
             end if
-            if (promise_kinds(kind) == 'ellipse') call take_reference(ellipses, record)
+            if (claim_kinds(kind) == 'ellipse') call take_reference(ellipses, record)
             call put_truth(writer, record)
         end do
 
@@ -135,7 +135,7 @@ contains
         subroutine leave_out(which)
             character(len=*), intent(in) :: which
 
-            call note(trim(promise_kinds(kind)) // ' ' // integer_text(number) // which &
+            call note(trim(claim_kinds(kind)) // ' ' // integer_text(number) // which &
                       // ' is left out: ' // trim(status_word(status%code)))
         end subroutine leave_out
     end subroutine put_contact
@@ -157,4 +157,4 @@ contains
             record%doubts(4:6) = abs(record%figures(4:6) - own%figures(4:6))/units(4:6)
         end associate
     end subroutine take_reference
-end module faststrip_lab_promises_truths
+end module faststrip_lab_claims_truths

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Condense what `faststrip-lab promises` wrote into the tables of reference/promises/.
+"""Condense what `faststrip-lab claims` wrote into the tables of reference/claims/.
 
-    promises.py --take CSV    write them anew
-    promises.py RESULTS.csv   print promises kept and estimates that bound, write nothing
+    claims.py --take CSV    write them anew
+    claims.py RESULTS.csv   print claims kept and estimates that bound, write nothing
 
-promises.csv: of each target and tolerance of auto, promises given and kept, and times over those
+claims.csv: of each target and tolerance of auto, claims given and kept, and times over those
 of the finest strips (on the contacts where they are good enough) and of Kalker's methods;
-kinds.csv: the same promises by kind of contact; estimates.csv: how many errors the estimates of
+kinds.csv: the same claims by kind of contact; estimates.csv: how many errors the estimates of
 each method bound, and how many times larger they are in the median; errors.csv: errors and times.
-plots/faststrip_plots/promises.py says how each is reckoned.
+plots/faststrip_plots/claims.py says how each is reckoned.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "plots"))
 
-from faststrip_plots.promises import (  # noqa: E402
+from faststrip_plots.claims import (  # noqa: E402
     ALL,
     ESTIMATED,
     Judged,
     error_rows,
     estimate_rows,
     kind_rows,
-    promise_rows,
+    claim_rows,
 )
 from faststrip_plots.tables import InputError  # noqa: E402
 
-FOLDER = ROOT / "reference" / "promises"
-TABLES = {"promises": promise_rows, "kinds": kind_rows, "estimates": estimate_rows,
+FOLDER = ROOT / "reference" / "claims"
+TABLES = {"claims": claim_rows, "kinds": kind_rows, "estimates": estimate_rows,
           "errors": error_rows}
 
 
@@ -60,7 +60,7 @@ def main(arguments=None):
         else:
             tell(judged)
     except InputError as error:
-        print(f"promises: {error}", file=sys.stderr)
+        print(f"claims: {error}", file=sys.stderr)
         return 1
     return 0
 
@@ -91,10 +91,10 @@ def write(path, text):
 
 
 def tell(judged):
-    """Promises and estimates for people."""
+    """Claims and estimates for people."""
     print(f"{len(judged)} contacts\n\ntarget       tolerance  promised  kept         worst"
           "  times finest strips, Kalker's  ms: median, 95 %")
-    for row in promise_rows(judged):
+    for row in claim_rows(judged):
         kept = "" if row["kept_share"] is None else f"({100 * row['kept_share']:.1f} %)"
         times = " ".join(f"{cell(row[f'times_{which}']):>8}" for which in ("strips", "kalker"))
         print(f"{row['target']:12} {100 * row['tolerance']:6g} % {row['promised']:9}"
