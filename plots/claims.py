@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draw claims of auto against the truth, estimates against errors, and errors against time."""
+"""Draw claims of auto against the reference, estimates against errors, and errors against time."""
 
 import os
 import sys
@@ -8,19 +8,19 @@ import numpy as np
 from matplotlib.ticker import NullLocator
 
 from faststrip_plots import command, picture, style
-from faststrip_plots.document import announce
 from faststrip_plots.claims import (
     TARGETS,
     UPPER,
     Judged,
+    claim_rows,
     front,
     largest_gap,
-    claim_rows,
     promised,
     target_error,
     target_time,
     upper,
 )
+from faststrip_plots.document import announce
 from faststrip_plots.results import revision
 
 # Beginnings of methods' names: colour and marker.
@@ -54,14 +54,14 @@ WIDTH = 0.36  # of a column of contacts, of the distance of tolerances
 def main(arguments=None):
     options = command.options(__doc__, arguments, {
         "results": ("out/claims.csv", "what `faststrip-lab claims` wrote"),
-        "truth": ("reference/claims/truth.csv", "what `faststrip-lab truth` wrote"),
+        "references": ("reference/claims/references.csv", "what `faststrip-lab references` wrote"),
         "methods": ("reference/claims/methods.csv", "the methods that were asked for")},
         folder=("out/claims", "pictures go there"))
-    judged = Judged(options.results, options.truth, options.methods)
+    judged = Judged(options.results, options.references, options.methods)
     stamps = [revision(judged.table)]
     count = f"{len(judged)} contacts of kinds that nothing was fitted to"
     pictures = [
-        (claims_figure(judged), "claims.png", "Claims and the truth",
+        (claims_figure(judged), "claims.png", "Claims and the reference",
          "Each point is a contact solved by auto for one target and tolerance. Status ok claims"
          " an error below the tolerance, the stair; target_missed claims nothing."),
         (estimates_figure(judged), "estimates.png", "Estimates and errors",

@@ -7,8 +7,8 @@ import sys
 import numpy as np
 
 from faststrip_plots import command, style
-from faststrip_plots.document import announce, write_dicts
 from faststrip_plots.claims import UPPER, upper
+from faststrip_plots.document import announce, write_dicts
 from faststrip_plots.results import RESULTS, revision
 from faststrip_plots.tables import InputError, read_table
 

@@ -11,7 +11,7 @@ program faststrip_lab
     use faststrip_lab_grid_bench, only: run_bench
     use faststrip_lab_studies_reference_scenes, only: run_scenes
     use faststrip_lab_claims, only: run_claims
-    use faststrip_lab_claims_truths, only: run_truth
+    use faststrip_lab_claims_references, only: run_references
     implicit none
     ! Alike the other program on purpose: two short lists of subcommands, nothing to share.
 
@@ -22,7 +22,7 @@ program faststrip_lab
     case ('fuzz'); call run_fuzz()
     case ('scenes'); call run_scenes()
     case ('claims'); call run_claims()
-    case ('truth'); call run_truth()
+    case ('references'); call run_references()
     case ('errata'); call run_errata()
     case ('force-data'); call run_force_data()
     case ('force-features'); call run_force_features()
@@ -49,9 +49,9 @@ contains
         call say('  force-data             reference forces of random contacts')
         call say('  force-features FILE... forces of FASTSTRIP beside these')
         call say('  fuzz                   random gaps, checked')
-        call say('  claims               what the methods make of contacts that are known')
+        call say('  claims                 what the methods make of contacts that are known')
         call say('  scenes                 reference forces of many contacts')
-        call say('  truth                  figures of contacts that nothing was fitted to')
+        call say('  references             figures of contacts that nothing was fitted to')
         call say('')
         call say('  SUBCOMMAND --help      what a subcommand takes')
         call say('  --version              name, version and revision')

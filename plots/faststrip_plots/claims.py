@@ -45,7 +45,7 @@ class Method:
 
 @dataclass(frozen=True)
 class Solved:
-    """What one method made of all contacts, in the order of the truth."""
+    """What one method made of all contacts, in the order of the reference."""
 
     method: Method
     status: np.ndarray
@@ -57,9 +57,9 @@ class Solved:
 
 
 class Judged:
-    """All methods on all contacts, with what is doubtful about the truth."""
+    """All methods on all contacts, with what is doubtful about the reference."""
 
-    def __init__(self, results: str, truth: str, methods: str):
+    def __init__(self, results: str, reference: str, methods: str):
         self.table = read_table(results, ("kind", "number", "state", "method", "status",
                                           "normal_us", "tangential_us")
                                 + tuple(f"err_{name}" for name in FIGURES)
@@ -68,7 +68,7 @@ class Judged:
         names = self.table.words("method")
         first = [key for key, name in zip(keys, names) if name == names[0]]
         self.kind = np.array([key[0] for key in first])
-        self.doubt = doubts(read_table(truth), first)
+        self.doubt = doubts(read_table(reference), first)
         self.solved = []
         for method in read_methods(methods):
             rows = np.array([k for k, name in enumerate(names) if name == method.name], dtype=int)
@@ -120,15 +120,15 @@ def read_methods(path: str) -> list[Method]:
     return found
 
 
-def doubts(truth: Table, keys) -> dict:
-    """How far the truth of each contact may be off, by figure."""
-    known = {key: k for k, key in enumerate(zip(*(truth.words(name) for name in
+def doubts(reference: Table, keys) -> dict:
+    """How far the reference of each contact may be off, by figure."""
+    known = {key: k for k, key in enumerate(zip(*(reference.words(name) for name in
                                                   ("kind", "number", "state"))))}
     missing = [key for key in keys if key not in known]
     if missing:
-        raise InputError(f"no such contact: {' '.join(missing[0])} ({truth.path})")
+        raise InputError(f"no such contact: {' '.join(missing[0])} ({reference.path})")
     rows = [known[key] for key in keys]
-    return {name: truth.numbers(f"doubt_{name}")[rows] for name in FIGURES}
+    return {name: reference.numbers(f"doubt_{name}")[rows] for name in FIGURES}
 
 
 def take(table: Table, method: Method, rows) -> Solved:
@@ -242,7 +242,7 @@ def estimate_rows(judged: Judged) -> list[dict]:
                 error, estimate = error[known], estimate[known]
                 row[f"{name}_contacts"] = int(known.sum())
                 row[f"{name}_bounded"] = share(error <= estimate + TINY)
-                # an error that is lost in the truth's own has no ratio
+                # an error that is lost in the reference's own has no ratio
                 told = error > doubt
                 row[f"{name}_ratio"] = upper(estimate[told] / error[told], 0.5)
             if any(row[f"{name}_contacts"] for name in ESTIMATED):

@@ -33,7 +33,7 @@ def options(description, arguments, files, output=None, folder=None, more=None):
         default, kind, words = output
         made.add_argument("-o", "--output", default=default, metavar=kind, help=words)
     if folder:
-        made.add_argument("--folder", default=folder[0], metavar="DIR", help=folder[1])
+        made.add_argument("--folder", default=folder[0], metavar="FOLDER", help=folder[1])
     return made.parse_args(arguments)
 
 

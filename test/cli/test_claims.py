@@ -1,4 +1,4 @@
-"""`faststrip-lab truth` and `claims`: a few contacts that nothing was fitted to."""
+"""`faststrip-lab references` and `claims`: a few contacts that nothing was fitted to."""
 
 import csv
 import math
@@ -16,20 +16,21 @@ SOME = "stage,method,when,normal,tangential,strips_per_patch,points_per_strip,fa
 
 
 class Claims(LabTest):
-    def truth(self, *words):
-        done = self.share_program("truth", "--across", 16, *words)
+    def reference(self, *words):
+        done = self.share_program("references", "--across", 16, *words)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.left_out = [line.split(" is left out")[0].split(": ")[1]
                          for line in done.stderr.splitlines()]
         return done.stdout
 
-    def judge(self, truth, methods, *words):
-        self.write("truth.csv", truth)
+    def judge(self, reference, methods, *words):
+        self.write("references.csv", reference)
         self.write("methods.csv", SOME + methods)
-        return self.good("claims", "--truth", "truth.csv", "--methods", "methods.csv", *words)
+        return self.good("claims", "--references", "references.csv", "--methods", "methods.csv",
+                         *words)
 
     def test_contacts_hold_what_was_asked(self):
-        rows = rows_of(self.truth("--each", 2))
+        rows = rows_of(self.reference("--each", 2))
         self.assertEqual(list(dict.fromkeys(row["kind"] for row in rows)), KINDS)
         solved = {(row["kind"], row["number"]) for row in rows}
         self.assertEqual(len(solved) + len(self.left_out), 2 * len(KINDS))
@@ -57,15 +58,15 @@ class Claims(LabTest):
         self.assertTrue(len(rows) // 2 < sum(spins) < len(rows))
 
     def test_a_contact_is_the_same_in_every_run(self):
-        rows = rows_of(self.truth("--each", 2))
-        own = rows_of(self.truth("--each", 1, "--kind", "radius_wave"))
+        rows = rows_of(self.reference("--each", 2))
+        own = rows_of(self.reference("--each", 1, "--kind", "radius_wave"))
         self.assertEqual(own, [row for row in rows if row["kind"] == "radius_wave"
                                and row["number"] == "1"])
         self.assertEqual(len(own), 2)
 
     def test_more_elements_come_nearer(self):
         fine, coarse = (rows_of(self.run_program(
-            "truth", "--each", 2, "--kind", "corner", "--across", across).stdout)
+            "references", "--each", 2, "--kind", "corner", "--across", across).stdout)
             for across in (72, 24))
         self.assertEqual(len(fine), 4)
         for name in ("penetration", *FORCES):
@@ -81,7 +82,7 @@ class Claims(LabTest):
                                   absolute=2.0 * doubt * size, what=name)
 
     def test_ellipses_are_those_of_contact(self):
-        rows = rows_of(self.truth("--each", 3, "--kind", "ellipse"))
+        rows = rows_of(self.reference("--each", 3, "--kind", "ellipse"))
         with open(HERTZ, encoding="utf-8") as stream:
             known = list(csv.DictReader(line for line in stream if not line.startswith("#")))
         self.assertEqual([row["number"] for row in rows], ["1", "6", "11"])
@@ -97,14 +98,14 @@ class Claims(LabTest):
             for name in FORCES:
                 self.assertLess(float(row[f"doubt_{name}"]), 0.02)
 
-    def test_kalker_comes_near_the_truth(self):
-        truth = self.truth("--each", 1)
-        rows = self.judge(truth, "both,fine,always,norm,tang,,,,,16,,\n"
+    def test_kalker_comes_near_the_reference(self):
+        reference = self.reference("--each", 1)
+        rows = self.judge(reference, "both,fine,always,norm,tang,,,,,16,,\n"
                                  "both,coarse,always,norm,tang,,,,,6,,\n"
                                  "both,strips,always,strip,faststrip,15,15,,,,,\n")
         self.assertEqual([row["method"] for row in rows],
                          [name for name in ("fine", "coarse", "strips")
-                          for _ in rows_of(truth)])
+                          for _ in rows_of(reference)])
         mean = {name: [sum(abs(float(row[f"err_{figure}"])) for row in rows
                            if row["method"] == name and row["err_Fx"])
                        for figure in ("penetration", *FORCES)]
@@ -119,15 +120,15 @@ class Claims(LabTest):
                 self.assertLess(abs(float(row["err_Fx"])), 0.1)
 
     def test_the_program_says_the_same_of_these_contacts(self):
-        truth = self.truth("--each", 1)
-        judged = self.judge(truth, "both,strips,always,strip,faststrip,11,9,,,,,\n"
+        reference = self.reference("--each", 1)
+        judged = self.judge(reference, "both,strips,always,strip,faststrip,11,9,,,,,\n"
                              "both,auto,always,auto,faststrip,,,,,,penetration,0.1\n", "--every", 3)
         (self.folder / "cases").mkdir()
-        done = self.run_program("claims", "--truth", "truth.csv", "--every", 3, "--cases",
+        done = self.run_program("claims", "--references", "references.csv", "--every", 3, "--cases",
                                 "cases")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         self.program = PROGRAM
-        true = rows_of(truth)[::3]
+        true = rows_of(reference)[::3]
         self.assertGreater(len(true), 8)
         self.assertEqual(len(judged), 2 * len(true))
         for method, words in (("strips", ("--strips-per-patch", 11, "--points-per-strip", 9)),
@@ -143,7 +144,7 @@ class Claims(LabTest):
         self.assertGreater(sum("strip" in row["choice"] for row in own), 3)
 
     def check_row(self, row, said, other):
-        """What the judge found is what the program says, less the truth."""
+        """What the judge found is what the program says, less the reference."""
         self.assertEqual(row["status"], said["status"])
         bound = float(other["mu"]) * float(other["N_N"])
         for name, column, unit in (("Fx", "Fx_N", bound), ("Fy", "Fy_N", bound),
@@ -159,18 +160,18 @@ class Claims(LabTest):
         for words, says in ((["--each", "0"], "0"), (["--across", "7"], "7"),
                             (["--kind", "round"], "round")):
             with self.subTest(words):
-                self.refused(2, "truth", *words, says=[says])
-        self.refused(1, "claims", "--truth", "none.csv", says=["none.csv"])
+                self.refused(2, "references", *words, says=[says])
+        self.refused(1, "claims", "--references", "none.csv", says=["none.csv"])
         self.refused(2, "claims", "--every", "0", says=["0"])
-        truth = self.truth("--each", 1, "--kind", "step")
+        reference = self.reference("--each", 1, "--kind", "step")
         self.write("methods.csv", SOME + "both,strips,always,strip,faststrip,,,,,,,\n")
         for old, new, says in (("\nstep", "\nsteep", "steep"), ("number,", "numbers,", "number"),
                                ("\nstep,1,1,1", "\nstep,1,1,one", "one")):
             with self.subTest(says):
-                self.write("bad.csv", truth.replace(old, new, 1))
-                self.refused(1, "claims", "--truth", "bad.csv", "--methods", "methods.csv",
+                self.write("bad.csv", reference.replace(old, new, 1))
+                self.refused(1, "claims", "--references", "bad.csv", "--methods", "methods.csv",
                              says=[says, "bad.csv"])
-        self.write("truth.csv", truth)
+        self.write("references.csv", reference)
         for row, says in (("both,x,always,norm,tang,,,,,1,,", "across"),
                           ("both,x,always,nrm,tang,,,,,9,,", "nrm"),
                           ("bth,x,always,norm,tang,,,,,9,,", "bth"),
@@ -178,8 +179,8 @@ class Claims(LabTest):
                           ("both,x,always,auto,tang,,,,,,pmax,0,1", "cells")):
             with self.subTest(row):
                 self.write("methods.csv", f"{SOME}{row}\n")
-                self.refused(1, "claims", "--truth", "truth.csv", "--methods", "methods.csv",
-                             says=[says, "methods.csv"])
+                self.refused(1, "claims", "--references", "references.csv", "--methods",
+                             "methods.csv", says=[says, "methods.csv"])
         self.write("methods.csv", SOME + "both,strips,always,strip,faststrip,,,,,,,\n")
-        self.refused(1, "claims", "--truth", "truth.csv", "--methods", "methods.csv",
+        self.refused(1, "claims", "--references", "references.csv", "--methods", "methods.csv",
                      "--cases", "/dev/null", says=["/dev/null"])

@@ -1,4 +1,4 @@
-"""Small results of `faststrip-lab claims`, with the truth and the methods they belong to."""
+"""Small results of `faststrip-lab claims`, with the reference and the methods they belong to."""
 
 FIGURES = ("penetration", "pmax", "area", "Fx", "Fy", "Mz", "friction_power", "stick_fraction")
 HEADER = ("kind,number,state,method,status,normal_us,tangential_us,"
@@ -53,8 +53,8 @@ def results():
     return "\n".join(lines) + "\n"
 
 
-def truth():
-    """What is doubtful of the truth: of Mz of the third contact much."""
+def reference():
+    """What is doubtful of the reference: of Mz of the third contact much."""
     lines = ["kind,number,state," + ",".join(f"doubt_{name}" for name in FIGURES)]
     for k, contact in enumerate(CONTACTS):
         values = [1e-4] * 8
@@ -65,6 +65,6 @@ def truth():
 
 
 def write_samples(folder):
-    """Write results.csv, truth.csv and methods.csv."""
-    for name, text in (("results", results()), ("truth", truth()), ("methods", METHODS)):
+    """Write results.csv, references.csv and methods.csv."""
+    for name, text in (("results", results()), ("references", reference()), ("methods", METHODS)):
         (folder / f"{name}.csv").write_text(text, encoding="utf-8")

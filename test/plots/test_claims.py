@@ -8,9 +8,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from claim_samples import METHODS, results, write_samples
 from faststrip_plots import claims
 from faststrip_plots.tables import InputError, read_table
-from claim_samples import METHODS, results, write_samples
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -24,7 +24,7 @@ class Claims(unittest.TestCase):
 
     def judged(self):
         return claims.Judged(*(str(self.folder / f"{name}.csv")
-                                 for name in ("results", "truth", "methods")))
+                                 for name in ("results", "references", "methods")))
 
     def run_tool(self, name, *words):
         return subprocess.run([sys.executable, str(ROOT / name), *words], cwd=self.folder,
@@ -38,7 +38,7 @@ class Claims(unittest.TestCase):
         self.assertEqual((five["promised"], five["kept"], five["kept_share"]), (4, 3, 0.75))
         self.assertAlmostEqual(five["worst"], 1.02)
         self.assertEqual((five["near"], five["doubtful"]), (0, 0))
-        # at 1 % the second is not promised, the third broken by less than the truth's own doubt
+        # at 1 % the second is not promised, the third broken by less than the reference's own doubt
         self.assertEqual((one["promised"], one["kept"], one["near"]), (3, 2, 1))
         self.assertEqual((one["doubtful"], one["within"]), (1, 0.5))
         # the first, off by 2 %, claims nothing; all others are kept
@@ -98,8 +98,8 @@ class Claims(unittest.TestCase):
         self.assertAlmostEqual(claims.largest_gap(points), 30.0)
 
     def test_tables_and_pictures(self):
-        done = self.run_tool("tools/measure/claims.py", "--take", "results.csv", "--truth",
-                             "truth.csv", "--methods", "methods.csv", "--folder", ".")
+        done = self.run_tool("tools/measure/claims.py", "--take", "results.csv", "--references",
+                             "references.csv", "--methods", "methods.csv", "--folder", ".")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         text = (self.folder / "claims.csv").read_text(encoding="utf-8")
         self.assertTrue(text.startswith("# faststrip 0.1.0 rev ababab\ntarget,tolerance,"), text)
@@ -109,11 +109,11 @@ class Claims(unittest.TestCase):
         self.assertEqual(rows[0]["Fx_mean"], "0.5")
         for name in ("kinds", "estimates"):
             self.assertGreater(len(read_table(str(self.folder / f"{name}.csv"))), 1)
-        done = self.run_tool("tools/measure/claims.py", "results.csv", "--truth", "truth.csv",
-                             "--methods", "methods.csv")
+        done = self.run_tool("tools/measure/claims.py", "results.csv", "--references",
+                             "references.csv", "--methods", "methods.csv")
         self.assertIn("3 (75.0 %)", done.stdout)
-        done = self.run_tool("plots/claims.py", "--results", "results.csv", "--truth",
-                             "truth.csv", "--methods", "methods.csv", "--folder", "out")
+        done = self.run_tool("plots/claims.py", "--results", "results.csv", "--references",
+                             "references.csv", "--methods", "methods.csv", "--folder", "out")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         files = read_table(str(self.folder / "out" / "figures.csv")).words("file")
         self.assertEqual(files, ["claims.png", "estimates.png", "front.png"])
@@ -123,7 +123,7 @@ class Claims(unittest.TestCase):
     def test_what_does_not_fit_is_refused(self):
         for name, text, says in (
                 ("results", results().replace("\ncorner,2,1,NORM", "\ncorner,3,1,NORM"), "NORM"),
-                ("truth", None, "truth.csv"),
+                ("references", None, "references.csv"),
                 ("methods", METHODS.replace("forces,0.05", "forces,"), "auto forces 5 %"),
                 ("methods", METHODS.replace("pmax,0.01", "pmx,0.01"), "auto pmax 1 %"),
                 ("methods", METHODS.replace(",strips\n", ",\n"), "baseline strips")):

@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 VALUES = ("case,method,q,N_N,area_mm2\n1,a,1.0,10,3.141592653589793\n"
           "2,a,2.2,10,12.566370614359172\n3,b,,10,1\n")
-TRUTH = "case,r\n1.0,1.1\n2,2\n"
+REFERENCE = "case,r\n1.0,1.1\n2,2\n"
 
 
 class Verdicts(unittest.TestCase):
@@ -30,7 +30,7 @@ class Verdicts(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         (self.folder / "v.csv").write_text(VALUES, encoding="utf-8")
-        (self.folder / "t.csv").write_text(TRUTH, encoding="utf-8")
+        (self.folder / "t.csv").write_text(REFERENCE, encoding="utf-8")
 
     def judged(self, **change):
         return judge(self.row(**change), str(self.folder))

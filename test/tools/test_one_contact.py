@@ -24,7 +24,7 @@ STUDIES = {
         # the paper as printed; what a march misses; other forces on strips that were recorded
         "studies/errata", "studies/correction", "forces/features",
         # references by Kalker's methods, on grids and pressures of their own
-        "forces/reference", "grid/tang", "pressures", "claims/truth",
+        "forces/reference", "grid/tang", "pressures", "claims/reference",
         "studies/estimates_reference", "studies/kalker", "studies/reference",
         "studies/reference_scenes", "studies/reference_tang", "studies/rolling"))}
 

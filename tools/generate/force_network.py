@@ -68,10 +68,10 @@ def states(path):
         return np.stack([fx, fy, (mz + y * fx) / arm], 1) / force[:, None]
 
     # The extrapolation makes Fx of TANG worse, Fy and Mz better.
-    truth = forces(d["Fx_fine_N"], d["Fy_tang_N"], d["Mz_tang_Nmm"])
+    reference = forces(d["Fx_fine_N"], d["Fy_tang_N"], d["Mz_tang_Nmm"])
     march = forces(d["Fx_N"], d["Fy_N"], d["Mz_Nmm"])
     fastsim = forces(d["Fx_fastsim_N"], d["Fy_fastsim_N"], d["Mz_fastsim_Nmm"])
-    missing = np.concatenate([truth - march, (d["stick_fraction_fine"]
+    missing = np.concatenate([reference - march, (d["stick_fraction_fine"]
                                               - d["stick_fraction"])[:, None]], 1)
     u = np.stack([d["u1"], d["u2"], d["u3"]], 1)
     squared = (u**2).sum(1)
@@ -94,7 +94,7 @@ def states(path):
         "neck": d["neck"], "ellipse": ellipse, "shape": shape, "v": v, "odd": odd[:, :SIDES],
         "size": np.sqrt((v**2).sum(1)) * march_part,
         "form": unlike / (unlike + HALF_SHAPE) * march_part, "missing": missing,
-        "fastsim": truth - fastsim, "u": np.sqrt(squared), "unlike": unlike,
+        "fastsim": reference - fastsim, "u": np.sqrt(squared), "unlike": unlike,
         "resolution": np.log(np.stack([d["width"], d["points"], *(
             np.clip(d[f"est_err_{name}"], *ESTIMATES) for name in
             ("penetration", "pmax", "area"))], 1)),

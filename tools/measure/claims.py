@@ -27,10 +27,10 @@ from faststrip_plots.claims import (  # noqa: E402
     ALL,
     ESTIMATED,
     Judged,
+    claim_rows,
     error_rows,
     estimate_rows,
     kind_rows,
-    claim_rows,
 )
 from faststrip_plots.tables import InputError  # noqa: E402
 
@@ -44,14 +44,14 @@ def main(arguments=None):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", nargs="?", metavar="RESULTS.csv")
     parser.add_argument("--take", metavar="CSV")
-    parser.add_argument("--truth", default=str(FOLDER / "truth.csv"), metavar="CSV")
+    parser.add_argument("--references", default=str(FOLDER / "references.csv"), metavar="CSV")
     parser.add_argument("--methods", default=str(FOLDER / "methods.csv"), metavar="CSV")
     parser.add_argument("--folder", type=Path, default=FOLDER, help="where the tables go")
     options = parser.parse_args(arguments)
     if (options.results is None) == (options.take is None):
         parser.error("give RESULTS.csv or --take")
     try:
-        judged = Judged(options.take or options.results, options.truth, options.methods)
+        judged = Judged(options.take or options.results, options.references, options.methods)
         if options.take:
             for name, rows_of in TABLES.items():
                 rows = rows_of(judged)

@@ -127,15 +127,15 @@ def by_python(prefix, table):
 
 def beside_contact(program, folder, table):
     """Errors against CONTACT's Hertz contacts, extrapolated to fine elements."""
-    truth = read(CONTACT)
+    reference = read(CONTACT)
     write(folder / "contact_states.csv", STATE,
-          [[row[name] for name in OF_CONTACT] for row in truth])
+          [[row[name] for name in OF_CONTACT] for row in reference])
     program("eval", table, folder / "contact_states.csv", "-o", folder / "contact_forces.csv")
     found = read(folder / "contact_forces.csv")
     rows = []
     for name, column in zip(FORCES, LOOKED_UP):
         errors = []
-        for row, other in zip(truth, found):
+        for row, other in zip(reference, found):
             unit = float(row["mu"]) * float(row["N"])
             if name == "Mz":
                 unit *= (float(row["a_mm"]) * float(row["b_mm"])) ** 0.5

@@ -297,7 +297,7 @@ def estimates_rows(path):
     for estimator in dict.fromkeys(table.words("estimator")):
         for own in dict.fromkeys(kind):
             for quantity in dict.fromkeys(table.words("quantity")):
-                # a truth that is itself in doubt leaves `covered` empty
+                # a reference that is itself in doubt leaves `covered` empty
                 mask = (chosen(table, estimator=estimator, quantity=quantity) & (kind == own)
                         & ~np.isnan(covered))
                 if not mask.any():

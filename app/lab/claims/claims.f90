@@ -1,9 +1,9 @@
-!> `faststrip-lab claims`: what the program makes of the contacts of `faststrip-lab truth` by each
-!> method of a list, automatic ones among them: errors, their estimates, status and time.
+!> `faststrip-lab claims`: what the program makes of the contacts of `faststrip-lab references`
+!> by each method of a list, automatic ones among them: errors, their estimates, status and time.
 !>
 !> Contacts are solved through the program's own solver, as a row of `faststrip batch` is. Kalker's
-!> methods with elements across the patch take these from the truth, which a user would have to find
-!> first: their times are the least they can be.
+!> methods with elements across the patch take these from the reference, which a user would have to
+!> find first: their times are the least they can be.
 module faststrip_lab_claims
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, number_text
@@ -27,8 +27,8 @@ module faststrip_lab_claims
     use faststrip_lab_grid_cases, only: bench_case_t, read_ellipse_cases
     use faststrip_lab_claims_contacts, only: claim_contact_t, find_claim_contact, &
                                                claim_kinds
-    use faststrip_lab_claims_record, only: truth_record_t, take_truth, n_figures, figure_names, &
-                                             figure_units
+    use faststrip_lab_claims_record, only: reference_record_t, take_reference, n_figures, &
+                                           figure_names, figure_units
     implicit none
     private
 
@@ -42,7 +42,7 @@ module faststrip_lab_claims
 
     !> What is true, and the gap it is true of.
     type :: judged_t
-        type(truth_record_t) :: truth
+        type(reference_record_t) :: reference
         type(claim_contact_t) :: contact
     end type judged_t
 
@@ -54,7 +54,7 @@ contains
         type(csv_writer_t) :: writer
         type(method_entry_t), allocatable :: entries(:)
         type(judged_t), allocatable :: contacts(:)
-        character(len=:), allocatable :: truth, methods, folder
+        character(len=:), allocatable :: reference, methods, folder
         integer :: i, thinning
 
         command%name = 'claims'
@@ -64,8 +64,8 @@ contains
             // new_line('a') // 'with its tolerances too, on contacts whose figures are known.' &
             // ' CSV, one row for each' // new_line('a') // 'contact and method.' // new_line('a')
         command%options = [ &
-            option_t('--truth', 'FILE', 'the contacts (default reference/claims/truth.csv)', &
-                     reads=.true.), &
+            option_t('--references', 'FILE', &
+                     'the contacts (default reference/claims/references.csv)', reads=.true.), &
             option_t('--methods', 'FILE', &
                      'the methods (default reference/claims/methods.csv)', reads=.true.), &
             option_t('--every', 'INTEGER', 'take one of so many contacts (default 1)'), &
@@ -74,10 +74,11 @@ contains
                      // ' gap' // new_line('a') // 'files'), &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
         call parse_command(command, 0)
-        truth = option_text(command, '--truth', in_checkout('reference/claims/truth.csv'))
+        reference = option_text(command, '--references', &
+                                in_checkout('reference/claims/references.csv'))
         methods = option_text(command, '--methods', in_checkout('reference/claims/methods.csv'))
         thinning = option_integer(command, '--every', 1, least=1, most=most_thinning)
-        call take_input(truth)
+        call take_input(reference)
         call take_input(methods)
         folder = option_text(command, '--cases', '')
         call read_method_list(methods, entries)
@@ -88,7 +89,7 @@ contains
                                  is_beginning=.true.)
             end do
         end if
-        call read_contacts(truth, thinning, contacts)
+        call read_contacts(reference, thinning, contacts)
         if (folder /= '') then
             call put_cases(folder, contacts)
             return
@@ -110,7 +111,7 @@ contains
         call end_table(writer)
     end subroutine run_claims
 
-    !> The contacts of a file of truths; ends the program if it cannot be read.
+    !> The contacts of a file of references; ends the program if it cannot be read.
     subroutine read_contacts(file, thinning, contacts)
         character(len=*), intent(in) :: file
         integer, intent(in) :: thinning
@@ -126,15 +127,15 @@ contains
         call read_ellipse_cases(in_checkout('reference/contact'), ellipses)
         allocate (contacts((table%n_rows + thinning - 1)/thinning))
         do i = 1, size(contacts)
-            associate (truth => contacts(i)%truth, contact => contacts(i)%contact)
-                call take_truth(table, 1 + (i - 1)*thinning, truth, status)
+            associate (reference => contacts(i)%reference, contact => contacts(i)%contact)
+                call take_reference(table, 1 + (i - 1)*thinning, reference, status)
                 call fail_on_error(status)
-                call find_claim_contact(ellipses, truth%kind, truth%number, contact, status)
+                call find_claim_contact(ellipses, reference%kind, reference%number, contact, status)
                 call fail_on_error(status, file)
-                contact%load = truth%load
-                contact%mu = truth%mu
-                contact%material = truth%material
-                contact%creepage = truth%creepage
+                contact%load = reference%load
+                contact%mu = reference%mu
+                contact%material = reference%material
+                contact%creepage = reference%creepage
             end associate
         end do
     end subroutine read_contacts
@@ -153,14 +154,14 @@ contains
         call begin_table(writer, folder // '/cases.csv')
         call put_header(writer, case_columns)
         do i = 1, size(contacts)
-            associate (truth => contacts(i)%truth)
-                name = trim(claim_kinds(truth%kind)) // '_' // integer_text(truth%number)
-                call put_cell(writer, name // '_' // integer_text(truth%state))
+            associate (reference => contacts(i)%reference)
+                name = trim(claim_kinds(reference%kind)) // '_' // integer_text(reference%number)
+                call put_cell(writer, name // '_' // integer_text(reference%state))
                 call put_cell(writer, name // '.csv')
-                associate (numbers => [truth%material%e_rail, truth%material%nu_rail, truth%mu, &
-                                       truth%load, truth%creepage%cksi, truth%creepage%ceta, &
-                                       truth%creepage%cphi])
-                    call put_cells(writer, numbers)
+                associate (material => reference%material, creepage => reference%creepage)
+                    call put_cells(writer, [material%e_rail, material%nu_rail, reference%mu, &
+                                            reference%load, creepage%cksi, creepage%ceta, &
+                                            creepage%cphi])
                 end associate
                 call end_row(writer)
             end associate
@@ -212,7 +213,7 @@ contains
             if (spent*(round + 1)/round > enough_us) exit
         end do
         do i = 1, size(contacts)
-            call put_row(writer, entry%name, contacts(i)%truth, results(i), trim(choices(i)), &
+            call put_row(writer, entry%name, contacts(i)%reference, results(i), trim(choices(i)), &
                          statuses(i), [(median(us(k, :rounds, i)), k=1, size(us, 1))])
         end do
         call free_solver(solver)
@@ -232,8 +233,8 @@ contains
         case%wanted = entry%settings%wanted
         case%asked%times = .true.
         if (entry%across > 0) then
-            case%methods%element_dx = contact%truth%extents(1)/entry%across
-            case%methods%element_dy = contact%truth%extents(2)/entry%across
+            case%methods%element_dx = contact%reference%extents(1)/entry%across
+            case%methods%element_dy = contact%reference%extents(2)/entry%across
             case%methods%dx_is_given = .true.
             case%methods%dy_is_given = .true.
         end if
@@ -241,10 +242,10 @@ contains
     end subroutine judge_contact
 
     !> One contact by one method; without a result its figures are empty.
-    subroutine put_row(writer, method, truth, result, choice, status, us)
+    subroutine put_row(writer, method, reference, result, choice, status, us)
         type(csv_writer_t), intent(inout) :: writer
         character(len=*), intent(in) :: method
-        type(truth_record_t), intent(in) :: truth
+        type(reference_record_t), intent(in) :: reference
         type(contact_result_t), intent(in) :: result
         character(len=*), intent(in) :: choice ! steps of auto
         type(status_t), intent(in) :: status
@@ -254,15 +255,15 @@ contains
         logical :: counts(n_figures), is_estimated(n_estimates)
         integer :: i
 
-        call put_cell(writer, trim(claim_kinds(truth%kind)))
-        call put_cell(writer, truth%number)
-        call put_cell(writer, truth%state)
+        call put_cell(writer, trim(claim_kinds(reference%kind)))
+        call put_cell(writer, reference%number)
+        call put_cell(writer, reference%state)
         call put_cell(writer, method)
         call put_cell(writer, trim(status_word(status%code)))
         if (is_error(status)) then
             errors = 0.0_wp
         else
-            errors = errors_of(truth, result)
+            errors = errors_of(reference, result)
         end if
         counts(:3) = .true.
         counts(4:7) = result%has_forces
@@ -300,8 +301,8 @@ contains
     end subroutine put_row
 
     !> Errors in the order of `figure_names`.
-    pure function errors_of(truth, solution) result(errors)
-        type(truth_record_t), intent(in) :: truth
+    pure function errors_of(reference, solution) result(errors)
+        type(reference_record_t), intent(in) :: reference
         type(contact_result_t), intent(in) :: solution
         real(wp) :: errors(n_figures)
 
@@ -311,6 +312,6 @@ contains
             found = [normal%penetration, normal%pmax, normal%area, forces%fx, forces%fy, &
                      forces%mz, forces%friction_power, forces%stick_fraction]
         end associate
-        errors = (found - truth%figures)/figure_units(truth)
+        errors = (found - reference%figures)/figure_units(reference)
     end function errors_of
 end module faststrip_lab_claims

@@ -1,7 +1,7 @@
 !> The contacts on which claims are judged: contact `number` of a kind is always the same one.
 !> Most are drawn; ellipses are those of `reference/contact/hertz_creep.csv`, by their rows.
 !>
-!> Loads, friction and materials are round numbers, so that they stand in the table of the truth as
+!> Loads, friction and materials are round numbers, so that they stand in the table of references as
 !> they are solved; creepages are drawn when the patch is known.
 module faststrip_lab_claims_contacts
     use faststrip_base_kinds, only: wp, pi

@@ -1,5 +1,5 @@
 !> What is kept of a contact on which claims are judged: what it is, and what is true of it. One
-!> row of `reference/claims/truth.csv`.
+!> row of `reference/claims/references.csv`.
 module faststrip_lab_claims_record
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, clear_status, is_error, set_status, number_text, &
@@ -13,7 +13,7 @@ module faststrip_lab_claims_record
     implicit none
     private
 
-    public :: truth_record_t, put_truth_header, put_truth, take_truth
+    public :: reference_record_t, put_reference_header, put_reference, take_reference
     public :: n_figures, figure_names, figure_units
 
     !> Figures of a contact.
@@ -33,7 +33,7 @@ module faststrip_lab_claims_record
         'length_mm', 'width_mm']
 
     !> One contact with one set of creepages.
-    type :: truth_record_t
+    type :: reference_record_t
         integer :: kind = 0            !! index of `claim_kinds`
         integer :: number = 0          !! of the kind, from 1
         integer :: state = 0           !! which creepages, from 1
@@ -46,14 +46,14 @@ module faststrip_lab_claims_record
         real(wp) :: doubts(n_figures) = 0.0_wp
             !! how far these may be off, over their units
         real(wp) :: extents(2) = 0.0_wp !! of the patches along x and y, for the elements, mm
-    end type truth_record_t
+    end type reference_record_t
 
 contains
 
     !> What errors of the figures are counted in: of the first three and the power themselves, of
     !> forces mu N, of the moment mu N c, c the root of area over pi, of the stick fraction one.
     pure function figure_units(record) result(units)
-        type(truth_record_t), intent(in) :: record !! load, friction and figures
+        type(reference_record_t), intent(in) :: record !! load, friction and figures
         real(wp) :: units(n_figures)
 
         real(wp) :: bound
@@ -64,17 +64,17 @@ contains
     end function figure_units
 
     !> The names of the columns.
-    subroutine put_truth_header(writer)
+    subroutine put_reference_header(writer)
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
         call put_header(writer, [heads, case_columns, figure_columns, doubt_columns, &
                                  extent_columns])
-    end subroutine put_truth_header
+    end subroutine put_reference_header
 
     !> One row, six digits of each number, two of each doubt.
-    subroutine put_truth(writer, record)
+    subroutine put_reference(writer, record)
         type(csv_writer_t), intent(inout) :: writer !! an open file with its header
-        type(truth_record_t), intent(in) :: record
+        type(reference_record_t), intent(in) :: record
 
         real(wp) :: numbers(17)
         character(len=8) :: doubt
@@ -98,13 +98,13 @@ contains
             call put_cell(writer, trim(number_text(record%extents(i))))
         end do
         call end_row(writer)
-    end subroutine put_truth
+    end subroutine put_reference
 
     !> Read a row.
-    subroutine take_truth(table, row, record, status)
-        type(csv_table_t), intent(in) :: table      !! a file of truths
+    subroutine take_reference(table, row, record, status)
+        type(csv_table_t), intent(in) :: table      !! a file of references
         integer, intent(in) :: row                  !! 1 to n_rows
-        type(truth_record_t), intent(out) :: record !! as it was written
+        type(reference_record_t), intent(out) :: record !! as it was written
         type(status_t), intent(out) :: status
             !! `st_file_format`: a column that is missing, a cell that is no number, a kind that is
             !! none
@@ -147,5 +147,5 @@ contains
                 call read_cell(table, row, trim(names(i)), values(i), status)
             end do
         end subroutine take_numbers
-    end subroutine take_truth
+    end subroutine take_reference
 end module faststrip_lab_claims_record

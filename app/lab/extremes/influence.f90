@@ -234,14 +234,14 @@ contains
         do i = 1, size(references%figures, 1), merge(30, 1, quick)
             if (is_off_centre) x = references%figures(i, 4)
             associate (n => references%figures(i, 1), b => references%figures(i, 2), &
-                       truth => references%figures(i, 3))
+                       known => references%figures(i, 3))
                 row = row_t(chapter='references', x_name='b', x=b, y_name='X', y=x, &
                             quantity='rel_err', judge='committed')
                 write (row%case, '(a, i0)') 'n = ', nint(n)
                 call exact_influence(x, (2*n - 1)*real(b, qp), (2*n + 1)*real(b, qp), exact, &
                                      uncertainty)
                 row%method = judge_name
-                row%value = abs(real(exact/truth - 1, wp)) + uncertainty
+                row%value = abs(real(exact/known - 1, wp)) + uncertainty
                 call put_row(writer, row)
                 row%method = 'closed'
                 if (is_off_centre) then
@@ -249,7 +249,7 @@ contains
                 else
                     row%value = strip_influence(nint(n), b)
                 end if
-                row%value = abs(row%value - truth)/truth
+                row%value = abs(row%value - known)/known
                 call put_row(writer, row)
             end associate
         end do

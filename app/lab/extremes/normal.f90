@@ -50,21 +50,21 @@ contains
         type(csv_writer_t), intent(inout) :: writer
 
         type(contact_case_t) :: contact
-        type(normal_result_t) :: truth
+        type(normal_result_t) :: known
         type(row_t) :: row
         integer :: i, j
 
         contact%load = usual_load
         do i = 1, size(few_ratios), merge(2, 1, quick)
             call progress('ellipses with many strips', i, size(few_ratios))
-            call make_ellipse(few_ratios(i), usual_points, contact, truth)
+            call make_ellipse(few_ratios(i), usual_points, contact, known)
             do j = 1, size(strip_counts)
                 if (quick .and. strip_counts(j) > most_quick) exit
                 if (strip_counts(j) > most_at_every_ratio .and. 2*i - 1 /= size(few_ratios)) exit
                 row = row_t(chapter='strips', method='strip', x_name='a/b', x=few_ratios(i), &
                             y_name='N', y=real(strip_counts(j), wp), judge='hertz')
                 contact%methods%strips_per_patch = strip_counts(j)
-                call put_solution(work, contact, truth, row, writer)
+                call put_solution(work, contact, known, row, writer)
                 if (.not. row%has_value) cycle
                 row%judge = 'dgecon'
                 call put_value(writer, row, 'condition', condition(work%strips))
@@ -79,7 +79,7 @@ contains
         type(csv_writer_t), intent(inout) :: writer
 
         type(contact_case_t) :: contact
-        type(normal_result_t) :: truth
+        type(normal_result_t) :: known
         type(row_t) :: row
         real(wp) :: ratio
         integer :: i, j, step
@@ -91,10 +91,10 @@ contains
             ratio = 10.0_wp**(0.5_wp*i)
             do j = -6, 9, merge(5, 1, quick)
                 contact%load = 10.0_wp**j
-                call make_ellipse(ratio, usual_points, contact, truth)
+                call make_ellipse(ratio, usual_points, contact, known)
                 row = row_t(chapter='ellipses', method='strip', x_name='a/b', x=ratio, &
                             y_name='load_N', y=contact%load, judge='hertz')
-                call put_solution(work, contact, truth, row, writer)
+                call put_solution(work, contact, known, row, writer)
             end do
         end do
     end subroutine all_ellipses
@@ -106,7 +106,7 @@ contains
         type(csv_writer_t), intent(inout) :: writer
 
         type(contact_case_t) :: contact
-        type(normal_result_t) :: truth
+        type(normal_result_t) :: known
         type(row_t) :: row
         real(wp) :: curvature
         integer :: i, j
@@ -117,20 +117,20 @@ contains
             call progress('flat gaps', i + 15, 11)
             curvature = 10.0_wp**(0.5_wp*i)
             do j = 1, size(point_counts), merge(4, 1, quick)
-                call make_parabola(wheel_inv2r, 0.5_wp*curvature, point_counts(j), contact, truth)
+                call make_parabola(wheel_inv2r, 0.5_wp*curvature, point_counts(j), contact, known)
                 row = row_t(chapter='flat_gaps', method='strip', x_name='1/R_per_mm', &
                             x=curvature, y_name='points', y=real(point_counts(j), wp), &
                             judge='hertz')
-                call put_solution(work, contact, truth, row, writer)
+                call put_solution(work, contact, known, row, writer)
             end do
         end do
     end subroutine flat_gaps
 
     !> Solve, and write the errors of three figures.
-    subroutine put_solution(work, contact, truth, row, writer)
+    subroutine put_solution(work, contact, known, row, writer)
         type(workspace_t), intent(inout) :: work
         type(contact_case_t), intent(in) :: contact
-        type(normal_result_t), intent(in) :: truth
+        type(normal_result_t), intent(in) :: known
         type(row_t), intent(inout) :: row
         type(csv_writer_t), intent(inout) :: writer
 
@@ -140,9 +140,9 @@ contains
         call solve_by_strips(work, contact, contact%methods%strips_per_patch, result, status)
         call status_of(status, row)
         call put_value(writer, row, 'penetration_err', &
-                       abs(result%penetration/truth%penetration - 1.0_wp))
-        call put_value(writer, row, 'pmax_err', abs(result%pmax/truth%pmax - 1.0_wp))
-        call put_value(writer, row, 'area_err', abs(result%area/truth%area - 1.0_wp))
+                       abs(result%penetration/known%penetration - 1.0_wp))
+        call put_value(writer, row, 'pmax_err', abs(result%pmax/known%pmax - 1.0_wp))
+        call put_value(writer, row, 'area_err', abs(result%area/known%area - 1.0_wp))
     end subroutine put_solution
 
     !> Condition number (1-norm) of the influence coefficients between the strips of a solution, on

@@ -61,7 +61,7 @@ contains
         type(workspace_t) :: workspace
         type(contact_result_t) :: result
         type(contact_case_t) :: contact
-        type(normal_result_t) :: truth
+        type(normal_result_t) :: known
         type(status_t) :: status
         type(row_t) :: row
         integer :: m, c, k
@@ -70,7 +70,7 @@ contains
             contact%material = material_t(nu_wheel=below, nu_rail=below)
         end associate
         contact%load = load
-        call make_ellipse(ratio, points, contact, truth)
+        call make_ellipse(ratio, points, contact, known)
         contact%methods%tangential = method%number
         call solve_pressures(workspace, contact, result, status)
         contact%estimate = .false.

@@ -28,7 +28,7 @@ module faststrip_lab_grid_cases
         character(len=:), allocatable :: group !! of the set, that it belongs to
         real(wp) :: shift = 0.0_wp             !! lateral shift of the wheelset, mm
         real(wp) :: a = 0.0_wp, b = 0.0_wp     !! semi-axes of an ellipse, mm
-        type(normal_result_t) :: truth         !! of CONTACT the area extrapolated in the grid
+        type(normal_result_t) :: known         !! of CONTACT the area extrapolated in the grid
         logical :: area_counts = .true.        !! is the area known better than to an element?
         real(wp) :: forces(3) = 0.0_wp         !! Fx, Fy, N, and Mz, N mm, extrapolated
         real(wp) :: stick_fraction = 0.0_wp    !! of its elements
@@ -67,11 +67,11 @@ contains
             cases(i)%shift = values(i, 1)
             cases(i)%load = values(i, 2)
             cases(i)%creepage = creepage_t(values(i, 3), values(i, 4), values(i, 5))
-            cases(i)%truth%penetration = values(i, 6)
-            cases(i)%truth%pmax = values(i, 7)
-            cases(i)%truth%area = values(i, 8)
-            cases(i)%truth%y_min = values(i, 9)
-            cases(i)%truth%y_max = values(i, 10)
+            cases(i)%known%penetration = values(i, 6)
+            cases(i)%known%pmax = values(i, 7)
+            cases(i)%known%area = values(i, 8)
+            cases(i)%known%y_min = values(i, 9)
+            cases(i)%known%y_max = values(i, 10)
             cases(i)%forces = values(i, 11:13)
             cases(i)%stick_fraction = values(i, 14)/values(i, 15)
             call read_gap_file(folder // '/gaps/' // cases(i)%name // '.csv', cases(i)%gap, status)
@@ -106,12 +106,12 @@ contains
                 cases(i)%mu = row(5)
                 cases(i)%load = row(6)
                 cases(i)%creepage = creepage_t(row(7), row(8), row(9))
-                cases(i)%truth%area = pi*row(1)*row(2)
-                cases(i)%truth%pmax = 1.5_wp*row(6)/(pi*row(1)*row(2))
+                cases(i)%known%area = pi*row(1)*row(2)
+                cases(i)%known%pmax = 1.5_wp*row(6)/(pi*row(1)*row(2))
                 cases(i)%forces = row(10:12)
                 cases(i)%stick_fraction = row(13)/row(14)
                 call ellipse_gap(row(1), row(2), row(6)*normal_compliance(cases(i)%material), &
-                                 inv2r_x, inv2r_y, cases(i)%truth%penetration)
+                                 inv2r_x, inv2r_y, cases(i)%known%penetration)
                 cases(i)%gap = parabolic_gap(inv2r_x, inv2r_y, row(2), ellipse_points)
             end associate
         end do
@@ -139,9 +139,9 @@ contains
                 cases(i)%name = integer_text(scene%number)
                 cases(i)%group = trim(merge('even', 'odd ', modulo(scene%number, 2) == 0))
                 cases(i)%creepage = creepage_t(row(2), row(3), row(4))
-                cases(i)%truth%penetration = row(5)
-                cases(i)%truth%pmax = row(6)
-                cases(i)%truth%area = row(7)
+                cases(i)%known%penetration = row(5)
+                cases(i)%known%pmax = row(6)
+                cases(i)%known%area = row(7)
                 cases(i)%area_counts = .false.
                 cases(i)%forces = row(8:10)
                 cases(i)%stick_fraction = row(11)

@@ -19,12 +19,12 @@ module faststrip_lab_grid_ellipse
 contains
 
     !> The gap whose contact is an ellipse of given proportions, and that contact.
-    subroutine make_ellipse(ratio, points, contact, truth)
+    subroutine make_ellipse(ratio, points, contact, known)
         real(wp), intent(in) :: ratio               !! a/b
         integer, intent(in) :: points               !! of the gap, >= 5
         class(contact_case_t), intent(inout) :: contact
             !! with material and load; its gap becomes one over twice the ellipse, mm
-        type(normal_result_t), intent(out) :: truth !! penetration, pmax, area
+        type(normal_result_t), intent(out) :: known !! penetration, pmax, area
 
         type(hertz_t) :: hertz
         type(status_t) :: status
@@ -46,7 +46,7 @@ contains
                 low = middle
             end if
         end do
-        call make_parabola(inv2r_x(middle), inv2r_y(middle), points, contact, truth)
+        call make_parabola(inv2r_x(middle), inv2r_y(middle), points, contact, known)
 
     contains
 
@@ -64,12 +64,12 @@ contains
     end subroutine make_ellipse
 
     !> The gap A x^2 + B y^2 and its Hertz contact.
-    subroutine make_parabola(inv2r_x, inv2r_y, points, contact, truth)
+    subroutine make_parabola(inv2r_x, inv2r_y, points, contact, known)
         real(wp), intent(in) :: inv2r_x             !! A, 1/mm
         real(wp), intent(in) :: inv2r_y             !! B, 1/mm
         integer, intent(in) :: points               !! of the gap, >= 5
         class(contact_case_t), intent(inout) :: contact !! as `make_ellipse`
-        type(normal_result_t), intent(out) :: truth !! penetration, pmax, area
+        type(normal_result_t), intent(out) :: known !! penetration, pmax, area
 
         type(hertz_t) :: hertz
         type(status_t) :: status
@@ -77,12 +77,12 @@ contains
         call hertz_solve(normal_compliance(contact%material), inv2r_x, inv2r_y, contact%load, &
                          hertz, status)
         call fail_on_error(status)
-        truth%load = hertz%load
-        truth%penetration = hertz%penetration
-        truth%pmax = hertz%pmax
-        truth%area = hertz%area
-        truth%y_min = -hertz%b
-        truth%y_max = hertz%b
+        known%load = hertz%load
+        known%penetration = hertz%penetration
+        known%pmax = hertz%pmax
+        known%area = hertz%area
+        known%y_min = -hertz%b
+        known%y_max = hertz%b
         contact%gap = parabolic_gap(inv2r_x, inv2r_y, hertz%b, points)
     end subroutine make_parabola
 

@@ -134,7 +134,7 @@ contains
             contacts(i)%load = load
             contacts(i)%set = 'ellipses'
             contacts(i)%name = 'hertz_' // trim(number_text(ratios(i)))
-            call make_ellipse(ratios(i), points, contacts(i), contacts(i)%truth)
+            call make_ellipse(ratios(i), points, contacts(i), contacts(i)%known)
         end do
     end subroutine make_ellipses
 
@@ -189,7 +189,7 @@ contains
 
         do i = 1, size(contacts)
             call progress('contacts', i, size(contacts))
-            call solve_by_strips(bench%workspace, contacts(i), strips, contacts(i)%truth, status)
+            call solve_by_strips(bench%workspace, contacts(i), strips, contacts(i)%known, status)
             is_known(i) = status%code == 0
             if (.not. is_known(i)) call note(contacts(i)%name // ' has no reference: ' &
                                              // trim(status%message))
@@ -281,10 +281,10 @@ contains
         if (is_error(status)) then
             call put_empty_cells(bench%writer, 2 + n_errors)
         else
-            errors = [result%penetration/contact%truth%penetration - 1.0_wp, &
-                      result%pmax/contact%truth%pmax - 1.0_wp, &
-                      result%area/contact%truth%area - 1.0_wp, &
-                      result%y_min - contact%truth%y_min, result%y_max - contact%truth%y_max]
+            errors = [result%penetration/contact%known%penetration - 1.0_wp, &
+                      result%pmax/contact%known%pmax - 1.0_wp, &
+                      result%area/contact%known%area - 1.0_wp, &
+                      result%y_min - contact%known%y_min, result%y_max - contact%known%y_max]
             call put_cells(bench%writer, [bench%workspace%strips%n, result%iterations])
             call put_cells(bench%writer, errors)
         end if

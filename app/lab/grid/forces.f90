@@ -98,7 +98,7 @@ contains
                 hertz%a = case%a
                 hertz%b = case%b
                 hertz%load = case%load
-                hertz%area = case%truth%area
+                hertz%area = case%known%area
                 hertz%pmax = 1.5_wp*hertz%load/hertz%area
                 contact = case%contact_case_t
                 contact%methods%normal = normal_hertz
@@ -168,7 +168,7 @@ contains
 
         case = contact
         force = contact%mu*contact%load
-        size_of = sqrt(reference%truth%area/pi)
+        size_of = sqrt(reference%known%area/pi)
         if (reference%a > 0.0_wp) size_of = sqrt(reference%a*reference%b)
         associate (creepage => contact%creepage)
             power = -dot_product(reference%forces, [creepage%cksi, creepage%ceta, creepage%cphi])

@@ -102,7 +102,7 @@ contains
         real(wp) :: dx, from, us(0:rounds)
         integer :: k, round
 
-        dx = sqrt(case%truth%area/elements)
+        dx = sqrt(case%known%area/elements)
         call solve_by_norm(norm, case, norm_options_t(dx=dx, dy=dx), normal, status)
         call fail_on_error(status)
         options%edges = edges_of_norm
@@ -136,7 +136,7 @@ contains
         creepage = case%creepage
         if (k == 1) return
         ! Where the linear theory's force, G c^2 times creepage, is the bound; c^2 = area/pi.
-        c = sqrt(case%truth%area/pi)
+        c = sqrt(case%known%area/pi)
         unit = mu*case%load/(combined_shear_modulus(case%material)*c**2)
         creepage = creepage_t(along*unit, across*unit, 0.0_wp)
         if (k == 3) creepage%cphi = turn*unit/c

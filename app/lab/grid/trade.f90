@@ -174,10 +174,10 @@ contains
         real(wp) :: bound
 
         errors(1:3) = [solution%normal%penetration, solution%normal%pmax, solution%normal%area] &
-                      /[case%truth%penetration, case%truth%pmax, case%truth%area] - 1.0_wp
+                      /[case%known%penetration, case%known%pmax, case%known%area] - 1.0_wp
         bound = case%mu*case%load
         errors(4:6) = ([solution%tangential%fx, solution%tangential%fy, solution%tangential%mz] &
                        - case%forces)/bound
-        errors(6) = errors(6)/sqrt(case%truth%area/pi)
+        errors(6) = errors(6)/sqrt(case%known%area/pi)
     end function relative_errors
 end module faststrip_lab_grid_trade

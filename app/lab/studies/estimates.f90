@@ -32,7 +32,7 @@ module faststrip_lab_studies_estimates
     use faststrip_lab_pressures, only: solve_by_strips
     use faststrip_lab_studies_estimates_tally, only: tally_t, start_tally, count_in, count_out, &
                                                      print_tally, figures, n_figures
-    use faststrip_lab_studies_estimates_reference, only: truth_t, find_truth, is_certain, &
+    use faststrip_lab_studies_estimates_reference, only: reference_t, find_reference, is_certain, &
                                                          elements_along, elements_across
     use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
@@ -46,7 +46,7 @@ module faststrip_lab_studies_estimates
     integer, parameter :: n_tried = size(strips_tried)
     character(len=*), parameter :: solutions(n_tried) = [character(len=22) :: '5', '9', '15', &
                                                          '21', '31', '41', 'auto']
-    integer, parameter :: extent_strips = 41 ! whose solution is the size of the truth's grids
+    integer, parameter :: extent_strips = 41 ! whose solution is the size of the reference's grids
     integer, parameter :: n_ellipses = 25, ellipse_points = 401
     integer, parameter :: seed = 31 ! none of these, see above
     integer, parameter :: per_family = 24, most_drawn = 3000, most_random_points = 20000
@@ -100,12 +100,12 @@ contains
         end do
         call begin_table(study%writer, path)
         call put_comment(study%writer, 'relative errors; penetration above the lowest gap')
-        call put_comment(study%writer, 'truth: exact for ellipses, CONTACT for gaps_contact, for ' &
-                         // 'all others NORM on ' // integer_text(elements_along) // ' by ' &
+        call put_comment(study%writer, 'reference: exact for ellipses, CONTACT for gaps_contact, ' &
+                         // 'for all others NORM on ' // integer_text(elements_along) // ' by ' &
                          // integer_text(elements_across) // ' and twice as many elements, ' &
                          // 'carried on')
-        call put_comment(study%writer, 'doubt: what the truth may be wrong by; blank in covered ' &
-                         // 'where that is too much')
+        call put_comment(study%writer, 'doubt: what the reference may be wrong by; blank in ' &
+                         // 'covered where that is too much')
         call put_header(study%writer, [character(len=12) :: 'family', 'case', 'strips', &
                                        'estimator', 'quantity', 'true_err', 'est_err', 'doubt', &
                                        'covered'])
@@ -181,7 +181,7 @@ contains
         type(bench_case_t), allocatable :: cases(:)
         type(norm_workspace_t) :: norm
         type(studied_case_t) :: contact
-        type(truth_t) :: truth
+        type(reference_t) :: reference
         logical :: is_found
         integer :: i
 
@@ -190,13 +190,13 @@ contains
             contact = named(cases(i)%name, cases(i)%load)
             contact%gap = cases(i)%gap
             call solve_all(study, contact)
-            call find(study, norm, contact, truth, is_found)
-            if (is_found) call enter(study, contact, set_gaps, truth)
-            associate (known => cases(i)%truth)
-                truth = figures_alone([known%penetration - contact%h_lowest, known%pmax, &
-                                       known%area])
+            call find(study, norm, contact, reference, is_found)
+            if (is_found) call enter(study, contact, set_gaps, reference)
+            associate (known => cases(i)%known)
+                reference = figures_alone([known%penetration - contact%h_lowest, known%pmax, &
+                                           known%area])
             end associate
-            call enter(study, contact, set_contact, truth)
+            call enter(study, contact, set_contact, reference)
         end do
         call release_norm(norm)
     end subroutine try_gaps
@@ -210,21 +210,21 @@ contains
         contact%load = load
     end function named
 
-    !> A truth without doubts.
-    type(truth_t) function figures_alone(figure) result(truth)
+    !> A reference without doubts.
+    type(reference_t) function figures_alone(figure) result(reference)
         real(wp), intent(in) :: figure(3)
 
-        truth%figure = figure
+        reference%figure = figure
     end function figures_alone
 
-    !> So many of each family as there is a truth for, out of so many that are drawn.
+    !> So many of each family as there is a reference for, out of so many that are drawn.
     subroutine try_random(study)
         type(study_t), intent(inout) :: study
 
         type(fuzz_case_t) :: random
         type(norm_workspace_t) :: norm
         type(studied_case_t) :: contact
-        type(truth_t) :: truth
+        type(reference_t) :: reference
         logical :: is_found
         integer :: found(size(random_families)), number, f
 
@@ -240,10 +240,10 @@ contains
             contact%gap = random%gap
             call solve_all(study, contact)
             if (.not. any(contact%is_smooth)) cycle
-            call find(study, norm, contact, truth, is_found)
+            call find(study, norm, contact, reference, is_found)
             if (.not. is_found) cycle
             found(f) = found(f) + 1
-            call enter(study, contact, set_contact + f, truth)
+            call enter(study, contact, set_contact + f, reference)
         end do
         call release_norm(norm)
     end subroutine try_random
@@ -278,12 +278,12 @@ contains
         end do
     end subroutine solve_all
 
-    !> The truth of a contact that was just solved, on grids of the size of its strips.
-    subroutine find(study, norm, contact, truth, is_found)
+    !> The reference of a contact that was just solved, on grids of the size of its strips.
+    subroutine find(study, norm, contact, reference, is_found)
         type(study_t), intent(inout) :: study
         type(norm_workspace_t), intent(inout) :: norm
         type(studied_case_t), intent(in) :: contact
-        type(truth_t), intent(out) :: truth
+        type(reference_t), intent(out) :: reference
         logical, intent(out) :: is_found
 
         type(normal_result_t) :: ignored
@@ -292,8 +292,8 @@ contains
         is_found = .false.
         call solve_by_strips(study%workspace, contact, extent_strips, ignored, status)
         if (.not. is_error(status)) &
-            call find_truth(norm, contact, study%workspace%solver%curve, study%workspace%strips, &
-                            truth, is_found)
+            call find_reference(norm, contact, study%workspace%solver%curve, &
+                                study%workspace%strips, reference, is_found)
     end subroutine find
 
     !> Did all strips settle? A half-space that is doubtful is a half-space.
@@ -311,11 +311,11 @@ contains
     end function half_of
 
     !> Enter what the estimates of a contact are worth.
-    subroutine enter(study, contact, family, truth)
+    subroutine enter(study, contact, family, reference)
         type(study_t), intent(inout) :: study
         type(studied_case_t), intent(in) :: contact
         integer, intent(in) :: family
-        type(truth_t), intent(in) :: truth
+        type(reference_t), intent(in) :: reference
 
         integer :: i
 
@@ -325,7 +325,8 @@ contains
             if (contact%is_halved(i)) &
                 call enter_one(richardson_, i, contact%result(i), contact%halves(i))
         end do
-        if (truth%coarse%pmax > 0.0_wp) call enter_one(norm_, 1, truth%coarse, truth%estimated)
+        if (reference%coarse%pmax > 0.0_wp) &
+            call enter_one(norm_, 1, reference%coarse, reference%estimated)
 
     contains
 
@@ -338,7 +339,7 @@ contains
             integer :: q
 
             error = abs([result%penetration - contact%h_lowest, result%pmax, result%area] &
-                        /truth%figure - 1.0_wp)
+                        /reference%figure - 1.0_wp)
             estimate = [normal_errors%est_err_penetration, normal_errors%est_err_pmax, &
                         normal_errors%est_err_area]
             do q = 1, n_figures
@@ -351,8 +352,8 @@ contains
                 end if
                 call put_cell(study%writer, trim(estimators(estimator)))
                 call put_cell(study%writer, trim(figures(q)))
-                call put_cells(study%writer, [error(q), estimate(q), truth%doubt(q)])
-                if (is_certain(truth%doubt(q), error(q))) then
+                call put_cells(study%writer, [error(q), estimate(q), reference%doubt(q)])
+                if (is_certain(reference%doubt(q), error(q))) then
                     call put_cell(study%writer, merge(1, 0, estimate(q) >= error(q)))
                     call count_in(study%tally(estimator), family, solution, q, estimate(q), &
                                   error(q))

@@ -106,7 +106,7 @@ contains
         call system_clock(begin)
         do k = 1, size(bench%cases)
             i = scattered(k, size(bench%cases))
-            dx = sqrt(bench%cases(i)%truth%area/elements)
+            dx = sqrt(bench%cases(i)%known%area/elements)
             do t = 1, size(tolerances)
                 do start = 1, size(starts)
                     call measure_start(bench, i, start, tolerances(t), dx, share, times, solved)

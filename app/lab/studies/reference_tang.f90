@@ -63,7 +63,7 @@ contains
             i = scattered(k, size(cases))
             solved = solved + 1
             names(solved) = cases(i)%name
-            call measure_case(cases(i), sqrt(cases(i)%truth%area/elements), &
+            call measure_case(cases(i), sqrt(cases(i)%known%area/elements), &
                               budget_us/(size(starts)*size(cases)), writer, us(solved, :))
             call system_clock(now)
             if (microseconds(begin, now) > budget_us) exit

@@ -156,7 +156,7 @@ contains
             call put_empty_cells(writer, 3)
         else
             errors = 100.0_wp*([result%fx, result%fy, result%mz] - contact%forces) &
-                     /(mu*contact%load*[1.0_wp, 1.0_wp, sqrt(contact%truth%area/pi)])
+                     /(mu*contact%load*[1.0_wp, 1.0_wp, sqrt(contact%known%area/pi)])
             call put_cells(writer, errors(:3))
             group%n = group%n + 1
             group%total = group%total + abs(errors)

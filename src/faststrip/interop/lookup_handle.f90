@@ -172,7 +172,7 @@ contains
         numbers = 0.0_c_double
         if (lookup%kind /= lookup_kind_wheel) return
         associate (wheel => lookup%wheel)
-            numbers = [lookup%nu, wheel%shear, lookup%guaranteed, real(wheel%tested, c_double), &
+            numbers = [lookup%nu, wheel%shear, lookup%promised, real(wheel%tested, c_double), &
                        real(wheel%slots, c_double), wheel%y%x([1, wheel%y%n]), &
                        wheel%yaw%x([1, wheel%yaw%n]), wheel%load%x([1, wheel%load%n]), &
                        reshape(wheel%errors, [size(wheel%errors)])]
@@ -186,7 +186,7 @@ contains
 
         numbers = 0.0_c_double
         if (lookup%kind /= lookup_kind_hertz) return
-        numbers = [lookup%nu, lookup%guaranteed, real(lookup%tested, c_double), &
+        numbers = [lookup%nu, lookup%promised, real(lookup%tested, c_double), &
                    exp(lookup%shape%x(1)), exp(lookup%shape%x(lookup%shape%n)), &
                    reshape(lookup%errors, [size(lookup%errors)])]
     end function describe_lookup

@@ -29,7 +29,7 @@ module faststrip_lookup_bytes
     ! Reads otherwise where the bytes of a number stand in another order.
     integer(int32), parameter :: order_mark = 16909060
     integer(int32), parameter :: other_order = 67305985
-    ! Numbers about the table: nu, what was guaranteed, how many were tested, 18 errors.
+    ! Numbers about the table: nu, what was promised, how many were tested, 18 errors.
     integer, parameter :: n_parameters = 21
 
 contains
@@ -89,7 +89,7 @@ contains
             lookup%scale = reshape(scales, [n_forces, int(n_shape)])
         end associate
         lookup%nu = parameters(1)
-        lookup%guaranteed = parameters(2)
+        lookup%promised = parameters(2)
         lookup%tested = nint(parameters(3))
         lookup%errors = reshape(parameters(4:), shape(lookup%errors))
     end subroutine take_hertz
@@ -119,7 +119,7 @@ contains
         if (lookup%kind == lookup_kind_wheel) then
             call put_wheel(lookup, at, bytes)
         else
-            call put_doubles([lookup%nu, lookup%guaranteed, real(lookup%tested, wp), &
+            call put_doubles([lookup%nu, lookup%promised, real(lookup%tested, wp), &
                               reshape(lookup%errors, [size(lookup%errors)])], at, bytes)
             call put_doubles(lookup%q%x, at, bytes)
             call put_doubles(lookup%ratio%x, at, bytes)

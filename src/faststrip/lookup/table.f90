@@ -55,7 +55,7 @@ module faststrip_lookup_table
     type :: lookup_t
         integer :: kind = 0           !! one of the kinds; 0: none was opened
         real(wp) :: nu = 0.0_wp       !! Poisson's ratio that it is for
-        real(wp) :: guaranteed = 0.0_wp !! 99th percentile of the errors it was made for, over mu N
+        real(wp) :: promised = 0.0_wp !! 99th percentile of the errors it was made for, over mu N
         integer :: tested = 0         !! fresh contacts on which the errors were found; 0: none
         real(wp) :: errors(3, 3, 2) = 0.0_wp
             !! of Fx, Fy over mu N, Mz over mu N c; mean, 99th percentile, worst; linear, cubic

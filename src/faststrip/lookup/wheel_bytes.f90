@@ -19,7 +19,7 @@ module faststrip_lookup_wheel_bytes
 
     ! Whole numbers behind those of the header: nodes of yaw and load, slots, contacts with faces.
     integer, parameter :: n_more = 4
-    ! Numbers about the table: nu, G, what was guaranteed, two counts of tests, the errors.
+    ! Numbers about the table: nu, G, what was promised, two counts of tests, the errors.
     integer, parameter :: n_errors = 12*n_wheel_errors, n_parameters = 5 + n_errors
     ! Tuned [bytes]: the largest table. Origin: safeguard: its size fits 64 bits.
     real(wp), parameter :: most_bytes = 1.0e15_wp
@@ -140,7 +140,7 @@ contains
             call take_text(bytes, at, counts(n_counts), lookup%text)
             lookup%nu = parameters(1)
             wheel%shear = parameters(2)
-            lookup%guaranteed = parameters(3)
+            lookup%promised = parameters(3)
             wheel%tested = nint(min(abs(parameters(4:5)), real(huge(1), wp)))
             wheel%errors = reshape(parameters(6:), shape(wheel%errors))
         end associate
@@ -196,7 +196,7 @@ contains
             call put_word(int(wheel%load%n, int32), at, bytes)
             call put_word(int(wheel%slots, int32), at, bytes)
             call put_word(int(wheel%sets, int32), at, bytes)
-            call put_doubles([lookup%nu, wheel%shear, lookup%guaranteed, real(wheel%tested, wp), &
+            call put_doubles([lookup%nu, wheel%shear, lookup%promised, real(wheel%tested, wp), &
                               reshape(wheel%errors, [n_errors])], at, bytes)
             call put_doubles(lookup%q%x, at, bytes)
             call put_doubles(lookup%ratio%x, at, bytes)

@@ -1,8 +1,8 @@
 !> Error estimates of a solution by Kalker's variational method, from two grids and its own.
 !>
 !> Richardson's estimate takes the differences of two grids, of second order. By chance two grids
-!> may agree better than either with the truth, where a peak lies between the elements. So the grid
-!> itself says how large an error must be reckoned with:
+!> may agree better than either with the exact solution, where a peak lies between the elements. So
+!> the grid itself says how large an error must be reckoned with:
 !>
 !> - pmax: half the largest difference of the maximum pressure and its four neighbours,
 !>   or what heights of the gap between the rows of elements ask for, which no row resolves

@@ -1,9 +1,9 @@
 !> Error estimates of forces by TANG, from those of elements twice as long and wide.
 !>
 !> The error falls with the sides to the power of about 1.5, but Fx is not monotone, and two grids
-!> may agree by chance better than either with the truth: so every force counts the differences d of
-!> all three a little, and what so many elements leave at least. Over mu N, the moment over mu N c
-!> and about the patch's middle,
+!> may agree by chance better than either with the exact solution: so every force counts the
+!> differences d of all three a little, and what so many elements leave at least. Over mu N, the
+!> moment over mu N c and about the patch's middle,
 !>
 !>     error_i = k_i (d_i + 0.1 max d + 0.8 f/n) + f s_i,  k = 0.62, 1.05, 0.73
 !>

@@ -41,20 +41,20 @@ contains
 
         normal_errors%residual_inside = misfit%inside
         normal_errors%overlap_outside = misfit%overlap
-        normal_errors%est_err_penetration = over_truth( &
+        normal_errors%est_err_penetration = over_exact( &
             penetration_factor*(penetration_mean*abs(misfit%mean) + misfit%magnitude &
                                 + penetration_overlap*misfit%overlap))
-        normal_errors%est_err_pmax = over_truth(max( &
+        normal_errors%est_err_pmax = over_exact(max( &
             pmax_factor*((pmax_mean*abs(misfit%mean) + misfit%magnitude)/misfit%rise &
                          + misfit%overlap), misfit%peak - 1.0_wp))
         normal_errors%est_err_area = &
-            over_truth(area_factor*(misfit%tips/misfit%rise + area_overlap*misfit%overlap))
+            over_exact(area_factor*(misfit%tips/misfit%rise + area_overlap*misfit%overlap))
     end function estimate_hertz_errors
 
-    !> An error over a figure as one over the truth, which may be smaller.
-    elemental real(wp) function over_truth(error)
+    !> An error over a figure as one over the exact figure, which may be smaller.
+    elemental real(wp) function over_exact(error)
         real(wp), intent(in) :: error
 
-        over_truth = error*(1.0_wp + error)
-    end function over_truth
+        over_exact = error*(1.0_wp + error)
+    end function over_exact
 end module faststrip_normal_estimate_hertz_errors

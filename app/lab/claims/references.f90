@@ -1,5 +1,5 @@
-!> `faststrip-lab truth`: contacts of kinds that nothing was fitted to, and what is true of them.
-module faststrip_lab_claims_truths
+!> `faststrip-lab references`: contacts of kinds that nothing was fitted to, and their figures.
+module faststrip_lab_claims_references
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, st_ok
     use faststrip_base_text, only: integer_text
@@ -12,14 +12,14 @@ module faststrip_lab_claims_truths
     use faststrip_lab_grid_cases, only: bench_case_t, read_ellipse_cases
     use faststrip_lab_claims_contacts, only: claim_contact_t, find_claim_contact, &
                                                draw_claim_creepages, claim_kinds, states_drawn
-    use faststrip_lab_claims_record, only: truth_record_t, put_truth_header, put_truth, &
-                                             figure_units
-    use faststrip_lab_claims_truth, only: truth_workspace_t, find_patches, find_pressures, &
-                                            find_figures
+    use faststrip_lab_claims_record, only: reference_record_t, put_reference_header, &
+                                           put_reference, figure_units
+    use faststrip_lab_claims_reference, only: reference_workspace_t, find_patches, &
+                                             find_pressures, find_figures
     implicit none
     private
 
-    public :: run_truth
+    public :: run_references
 
     integer, parameter :: usual_each = 28, usual_across = 108
     ! Of so many ellipses one is taken.
@@ -28,15 +28,15 @@ module faststrip_lab_claims_truths
 contains
 
     !> Run the subcommand from the command line.
-    subroutine run_truth()
+    subroutine run_references()
         type(command_t) :: command
         type(csv_writer_t) :: writer
-        type(truth_workspace_t) :: work
+        type(reference_workspace_t) :: work
         type(bench_case_t), allocatable :: ellipses(:)
         character(len=:), allocatable :: name
         integer :: each, across, kind, only, i, number
 
-        command%name = 'truth'
+        command%name = 'references'
         command%usage = ''
         command%about = &
             'For developers: figures by NORM and TANG of contacts of kinds that nothing was' &
@@ -66,7 +66,7 @@ contains
         call put_comment(writer, 'doubt_*: how far that may be off, relative, of Fx, Fy over mu' &
                          // ' N, of Mz over mu N c, c = sqrt(area/pi); creepages and Mz about' &
                          // ' y = 0')
-        call put_truth_header(writer)
+        call put_reference_header(writer)
         do kind = 1, size(claim_kinds)
             if (only > 0 .and. kind /= only) cycle
             do i = 1, each
@@ -80,18 +80,18 @@ contains
             end do
         end do
         call end_table(writer)
-    end subroutine run_truth
+    end subroutine run_references
 
     !> The rows of one contact; one that NORM cannot solve without a limitation is left out.
     subroutine put_contact(writer, work, ellipses, kind, number, across)
         type(csv_writer_t), intent(inout) :: writer
-        type(truth_workspace_t), intent(inout) :: work
+        type(reference_workspace_t), intent(inout) :: work
         type(bench_case_t), intent(in) :: ellipses(:)
         integer, intent(in) :: kind, number, across
 
         type(claim_contact_t) :: contact
         type(creepage_t) :: creepages(states_drawn)
-        type(truth_record_t) :: record
+        type(reference_record_t) :: record
         type(status_t) :: status
         integer :: states
 
@@ -126,8 +126,8 @@ contains
                 call leave_out(', state ' // integer_text(record%state))
                 cycle
             end if
-            if (claim_kinds(kind) == 'ellipse') call take_reference(ellipses, record)
-            call put_truth(writer, record)
+            if (claim_kinds(kind) == 'ellipse') call take_ellipse(ellipses, record)
+            call put_reference(writer, record)
         end do
 
     contains
@@ -141,20 +141,20 @@ contains
     end subroutine put_contact
 
     !> What Hertz and CONTACT say of an ellipse; its forces are as doubtful as TANG's differ.
-    subroutine take_reference(ellipses, record)
+    subroutine take_ellipse(ellipses, record)
         type(bench_case_t), intent(in) :: ellipses(:)
-        type(truth_record_t), intent(inout) :: record
+        type(reference_record_t), intent(inout) :: record
 
-        type(truth_record_t) :: own
+        type(reference_record_t) :: own
 
         own = record
         associate (case => ellipses(record%number))
-            record%figures(:6) = [case%truth%penetration, case%truth%pmax, case%truth%area, &
+            record%figures(:6) = [case%known%penetration, case%known%pmax, case%known%area, &
                                   case%forces]
         end associate
         record%doubts(:3) = 0.0_wp
         associate (units => figure_units(record))
             record%doubts(4:6) = abs(record%figures(4:6) - own%figures(4:6))/units(4:6)
         end associate
-    end subroutine take_reference
-end module faststrip_lab_claims_truths
+    end subroutine take_ellipse
+end module faststrip_lab_claims_references

@@ -1,5 +1,5 @@
-!> What is true of a contact of `faststrip-lab truth`: NORM and TANG on two grids, one with elements
-!> twice as long and wide, extrapolated where that is justified.
+!> The reference of a contact of `faststrip-lab references`: NORM and TANG on two grids, one with
+!> elements twice as long and wide, extrapolated where that is justified.
 !>
 !> Measured on 108 states of 54 contacts, 36, 72 and 144 elements across. The differences of the
 !> grids fall by 4.1 (penetration, pmax), 3.1 (Fx), 2.3 (Fy), 3.4 (Mz). Extrapolated with the order
@@ -11,7 +11,7 @@
 !> In steady rolling the friction power is what the forces do on the creepages. The sum of
 !> tractions on slips is that, too, but lacks 5 % and more where next to nothing slides, as the slip
 !> is at the trailing edge, in less than an element.
-module faststrip_lab_claims_truth
+module faststrip_lab_claims_reference
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error, st_ok
     use faststrip_base_creepage, only: creepage_t
@@ -26,11 +26,11 @@ module faststrip_lab_claims_truth
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t
-    use faststrip_lab_claims_record, only: truth_record_t, n_figures, figure_units
+    use faststrip_lab_claims_record, only: reference_record_t, n_figures, figure_units
     implicit none
     private
 
-    public :: truth_workspace_t, find_patches, find_pressures, find_figures
+    public :: reference_workspace_t, find_patches, find_pressures, find_figures
 
     ! Residuals, far below the errors of any grid.
     real(wp), parameter :: norm_tolerance = 1.0e-8_wp, tang_tolerance = 1.0e-6_wp
@@ -58,18 +58,18 @@ module faststrip_lab_claims_truth
     end type level_t
 
     !> What the solvers work in.
-    type :: truth_workspace_t
+    type :: reference_workspace_t
         type(contact_strips_t) :: strips !! the patches, as rows of elements
         type(level_t) :: first           !! the grid that found them
-        type(level_t) :: coarse          !! the grids of the truth
+        type(level_t) :: coarse          !! the grids of the reference
         type(level_t) :: fine            !! the same
-    end type truth_workspace_t
+    end type reference_workspace_t
 
 contains
 
     !> Find the patches, as strips.
     subroutine find_patches(work, case, status)
-        type(truth_workspace_t), intent(inout) :: work !! its strips are filled
+        type(reference_workspace_t), intent(inout) :: work !! its strips are filled
         class(contact_case_t), intent(in) :: case      !! gap, material, load
         type(status_t), intent(out) :: status          !! of NORM
 
@@ -90,7 +90,7 @@ contains
 
     !> Solve the normal problem on both grids.
     subroutine find_pressures(work, case, across, extents, status)
-        type(truth_workspace_t), intent(inout) :: work !! with the patches
+        type(reference_workspace_t), intent(inout) :: work !! with the patches
         class(contact_case_t), intent(in) :: case      !! gap, material, load
         integer, intent(in) :: across                  !! elements of the finer grid, each way
         real(wp), intent(out) :: extents(2)            !! that they are across, mm
@@ -149,9 +149,9 @@ contains
 
     !> All figures for the creepages of a contact.
     subroutine find_figures(work, case, record, status)
-        type(truth_workspace_t), intent(inout) :: work !! with pressures
+        type(reference_workspace_t), intent(inout) :: work !! with pressures
         class(contact_case_t), intent(in) :: case      !! material, friction, creepages
-        type(truth_record_t), intent(inout) :: record  !! its figures and doubts are set
+        type(reference_record_t), intent(inout) :: record  !! its figures and doubts are set
         type(status_t), intent(out) :: status          !! of TANG
 
         real(wp) :: coarse(n_figures), fine(n_figures)
@@ -238,4 +238,4 @@ contains
         tip = 1.0_wp
         if (before > last) tip = min(1.0_wp, last**2/(before**2 - last**2))
     end function tip
-end module faststrip_lab_claims_truth
+end module faststrip_lab_claims_reference
