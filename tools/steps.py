@@ -13,7 +13,7 @@
                 --quick asks the tests of the room only
   hostile [N] [--seed S]
                 build, then try 500 (or N) hostile inputs: each must end with one clear line
-  fuzz [CASES]  build, then solve 100000 (or CASES) random contacts and judge the answers
+  fuzz [CASES]  build, then solve 100000 (or CASES) random contacts and check the answers
   corrections   build, then solve 47400 random contacts by NORM and TANG, fit what FASTSTRIP
                 misses of their forces, and write it into the sources; about two hours; what is
                 there in out/force_data/ is not made again

@@ -46,7 +46,7 @@ FAULTS = {
 
 
 class Fuzz(LabTest):
-    def test_no_case_of_a_plain_family_displeases_a_judge(self):
+    def test_no_case_of_a_plain_family_displeases_a_check(self):
         for family in ("slender", "offset", "fine"):
             with self.subTest(family):
                 self.succeed("fuzz", "--cases", 200, "--first", 2001, "--family",
@@ -91,13 +91,13 @@ class Fuzz(LabTest):
         self.assertEqual(set(listed), set(FAULTS) | {"patch_lost"})
         cases = ("--cases", 600, "--family", "offset")
         done = self.succeed("fuzz", *cases)
-        for fault, (judge, share) in FAULTS.items():
+        for fault, (check, share) in FAULTS.items():
             with self.subTest(fault):
                 done = self.run_program("fuzz", *cases, "--plant", fault, "-o", "planted.csv")
                 self.assertEqual(done.returncode, 1, done.stdout)
                 self.assertIn("cases failed a check", done.stderr)
                 rows = self.read("planted.csv")
-                told = [row for row in rows if judge in row["violation"].split()]
+                told = [row for row in rows if check in row["violation"].split()]
                 self.assertGreaterEqual(len(told), share * len(rows), done.stdout)
 
     def test_the_unit_of_length_does_not_matter(self):
@@ -115,9 +115,9 @@ class Fuzz(LabTest):
                 self.run_program("fuzz", "--seed", seed, "--case", case, "--thorough",
                                  "-o", "case.csv")
                 row = self.read("case.csv")[0]
-                for judge in ("mirror", "scale", "stiffness"):
-                    self.assertLess(float(row[judge]), 1e-3, row)
-                    self.assertGreaterEqual(float(row[judge]), 0.0, row)
+                for check in ("mirror", "scale", "stiffness"):
+                    self.assertLess(float(row[check]), 1e-3, row)
+                    self.assertGreaterEqual(float(row[check]), 0.0, row)
 
     def test_a_wall_stands_behind_all_patches_and_far_enough(self):
         """Two patches in dips between points, and contacts that felt a wall 12 points away."""
@@ -151,12 +151,12 @@ class Fuzz(LabTest):
             if row["case"] in several:
                 self.assertIn("load", row["violation"].split(), row)
 
-    def test_all_judges_are_asked(self):
+    def test_all_checks_are_asked(self):
         done = self.succeed("fuzz", "--case", 100, "--thorough", "-o", "case.csv")
         row = self.read("case.csv")[0]
-        for judge in list(row)[list(row).index("answer"):]:
-            self.assertGreaterEqual(float(row[judge]), 0.0, judge)
-            self.assertIn(judge, done.stdout)
+        for check in list(row)[list(row).index("answer"):]:
+            self.assertGreaterEqual(float(row[check]), 0.0, check)
+            self.assertIn(check, done.stdout)
 
     def test_what_did_not_settle_once_settles(self):
         """Slender contacts and jumps of 1/(2R), where passes used to go back and forth."""

@@ -241,7 +241,7 @@ def measure(job, folder):
                                   timeout=TIME_LIMIT, check=False)
         except subprocess.TimeoutExpired:
             return None
-        # The fuzz ends with 1 where a judge is not pleased, and batches where a row fails.
+        # The fuzz ends with 1 where a check fails, and batches where a row fails.
         if done.returncode not in (0, 1, 3) or not path.exists():
             return None
         with open(path, encoding="utf-8") as stream:

@@ -1,7 +1,7 @@
-!> Errors planted in answers, to see that the judges of `faststrip-lab fuzz` tell them.
+!> Errors planted in answers, to see that the checks of `faststrip-lab fuzz` find them.
 !>
-!> They are put in after the solution and before it is judged, into every answer, those that the
-!> judges ask for by themselves among them: what a wrong solver would hand over.
+!> They are put in after the solution and before it is checked, into every answer, those that the
+!> checks ask for by themselves among them: what a wrong solver would hand over.
 module faststrip_lab_fuzz_faults
     use faststrip_base_kinds, only: wp
     use faststrip_normal_types, only: normal_result_t

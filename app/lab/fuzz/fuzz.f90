@@ -1,4 +1,4 @@
-!> `faststrip-lab fuzz`: contacts of many random gaps, solved and judged.
+!> `faststrip-lab fuzz`: contacts of many random gaps, solved and checked.
 module faststrip_lab_fuzz
     use faststrip_base_status, only: status_t
     use faststrip_base_text, only: integer_text
@@ -10,7 +10,7 @@ module faststrip_lab_fuzz
                                                  option_text, option_integer, option_word
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, draw_case, all_families
     use faststrip_lab_fuzz_faults, only: fault_names
-    use faststrip_lab_fuzz_judges, only: verdict_t
+    use faststrip_lab_fuzz_checks, only: verdict_t
     use faststrip_lab_fuzz_run, only: workspaces_t, try_case
     use faststrip_lab_fuzz_tables, only: print_verdicts, read_verdicts, put_fuzz_header, &
                                          put_fuzz_row
@@ -78,26 +78,26 @@ contains
         command%name = 'fuzz'
         command%usage = ''
         command%about = &
-            'For developers: solve the contacts of many random gaps by strips and judge the' &
+            'For developers: solve the contacts of many random gaps by strips and check the' &
             // new_line('a') // 'answers. A case is the same wherever the run starts. Exit code' &
-            // ' 1 if one displeases a judge.' // new_line('a')
+            // ' 1 if one fails a check.' // new_line('a')
         command%options = [ &
             option_t('--cases', 'INTEGER', 'number of cases (default 1000)'), &
             option_t('--seed', 'INTEGER', 'which series of cases (default 1)'), &
             option_t('--first', 'INTEGER', 'number of the first case (default 1)'), &
             option_t('--case', 'INTEGER', 'this case only'), &
             option_t('--family', 'NAME', 'only the cases of this family'), &
-            option_t('--read', 'FILE', 'solve nothing, judge the rows that -o wrote there', &
+            option_t('--read', 'FILE', 'solve nothing, check the rows that -o wrote there', &
                      reads=.true.), &
             option_t('--solver', 'NAME', 'strip (default) or lattice'), &
-            option_t('--thorough', '', 'every judge on every case, NORM too'), &
+            option_t('--thorough', '', 'every check on every case, NORM too'), &
             option_t('--plant', 'FAULT', 'put an error into every answer; list: which there are'), &
             option_t('--gap-of', 'INTEGER', 'write the gap of this case instead, to -o'), &
             option_t('-o', 'FILE', 'write one CSV row per case there', writes=.true.)]
         call parse_command(command, 0)
     end subroutine take_command
 
-    !> Solve and judge the cases, and write their rows if asked for.
+    !> Solve and check the cases, and write their rows if asked for.
     subroutine try_cases(command, seed, first, cases, work, numbers, family, verdicts)
         type(command_t), intent(in) :: command
         integer, intent(in) :: seed, first, cases

@@ -1,4 +1,4 @@
-!> Displacement under strips, computed for the judges alone: nothing of the library's influence
+!> Displacement under strips, computed for the checks alone: nothing of the library's influence
 !> rooms is used, so that an error there cannot hide itself.
 !>
 !> A strip's pressure `p0 sqrt(1 - u^2)`, u = x/xd, moves the place (x, y) by `H p0 xd I`,

@@ -1,23 +1,23 @@
 !> What the answers to two related contacts have to do with each other.
 !>
 !> Each relation changes the case (`related_case`) and says how the figures change with it
-!> (`judge_relation`).
+!> (`check_relation`).
 module faststrip_lab_fuzz_relations
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: is_error, st_ok
     use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_lab_fuzz_cases, only: fuzz_case_t
-    use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_mirror, judge_scale, &
-                                         judge_stiffness, judge_monotone, judge_wall
+    use faststrip_lab_fuzz_checks, only: verdict_t, report_badness, check_mirror, check_scale, &
+                                         check_stiffness, check_monotone, check_wall
     implicit none
     private
 
-    public :: relations, related_case, judge_relation
+    public :: relations, related_case, check_relation
 
-    !> The judges that need a second solution.
-    integer, parameter :: relations(5) = [judge_mirror, judge_scale, judge_stiffness, &
-                                          judge_monotone, judge_wall]
+    !> The checks that need a second solution.
+    integer, parameter :: relations(5) = [check_mirror, check_scale, check_stiffness, &
+                                          check_monotone, check_wall]
 
     real(wp), parameter :: same = 1.0e-9_wp          ! relative
     real(wp), parameter :: same_behind = 1.0e-6_wp   ! relative, where a wall is added: Newton's
@@ -49,22 +49,22 @@ contains
         has_one = .true.
         n = size(case%gap%y)
         select case (relation)
-        case (judge_mirror)
+        case (check_mirror)
             other%gap%y = -case%gap%y(n:1:-1)
             other%gap%h = case%gap%h(n:1:-1)
             other%gap%inv2r = case%gap%inv2r(n:1:-1)
-        case (judge_scale)
+        case (check_scale)
             other%gap%y = length_factor*case%gap%y
             other%gap%h = length_factor*case%gap%h
             other%gap%inv2r = case%gap%inv2r/length_factor
             other%load = length_factor**2*case%load
-        case (judge_stiffness)
+        case (check_stiffness)
             other%material%e_wheel = stiffness_factor*case%material%e_wheel
             other%material%e_rail = stiffness_factor*case%material%e_rail
             other%load = stiffness_factor*case%load
-        case (judge_monotone)
+        case (check_monotone)
             other%load = load_factor*case%load
-        case (judge_wall)
+        case (check_wall)
             ! Behind all that is below the penetration and behind all patches: one may lie in a dip
             ! between two points that are both above it.
             depth = result%penetration - curve%h_lowest
@@ -90,7 +90,7 @@ contains
     end subroutine related_case
 
     !> Compare the answers; the status words have to be the same too.
-    subroutine judge_relation(relation, verdict, curve, other, other_curve)
+    subroutine check_relation(relation, verdict, curve, other, other_curve)
         integer, intent(in) :: relation          !! one of `relations`
         type(verdict_t), intent(inout) :: verdict !! of the case
         type(gap_curve_t), intent(in) :: curve    !! of the case's gap
@@ -106,27 +106,27 @@ contains
         depth = verdict%result%penetration - curve%h_lowest
         other_depth = other%result%penetration - other_curve%h_lowest
         select case (relation)
-        case (judge_mirror)
+        case (check_mirror)
             call compare(1.0_wp, 1.0_wp, -other%result%y_max, -other%result%y_min, same)
-        case (judge_scale)
+        case (check_scale)
             call compare(length_factor, 1.0_wp, other%result%y_min/length_factor, &
                          other%result%y_max/length_factor, same)
-        case (judge_stiffness)
+        case (check_stiffness)
             call compare(1.0_wp, stiffness_factor, other%result%y_min, other%result%y_max, same)
-        case (judge_wall)
+        case (check_wall)
             call compare(1.0_wp, 1.0_wp, other%result%y_min, other%result%y_max, same_behind)
-        case (judge_monotone)
+        case (check_monotone)
             ! The load grows with the penetration, ever more steeply: D is concave in Q.
             slack = least_slack + max(verdict%est_err(1), other%est_err(1))
             ratio = other_depth/depth
             call report_badness(verdict, relation, max(1.0_wp - ratio, ratio - load_factor)/slack)
         end select
-        if (relation == judge_monotone) return
+        if (relation == check_monotone) return
         ! One that is ok must stay so. Whether patches settle may turn on the rounding: then the
         ! answer
         ! has a limitation, as has the other, and both agree as their estimates say.
         if ((verdict%status%code == st_ok) .neqv. (other%status%code == st_ok)) then
-            if (verdict%status%code == st_ok .or. relation /= judge_wall) &
+            if (verdict%status%code == st_ok .or. relation /= check_wall) &
                 call report_badness(verdict, relation, huge(1.0_wp))
         end if
 
@@ -165,5 +165,5 @@ contains
 
             over = abs(ratio - 1.0_wp)/max(ratio, 1.0_wp)/max(tolerance, estimate)
         end function over
-    end subroutine judge_relation
+    end subroutine check_relation
 end module faststrip_lab_fuzz_relations

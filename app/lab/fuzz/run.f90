@@ -1,4 +1,4 @@
-!> One case of `faststrip-lab fuzz`: solved, spoiled if asked, judged.
+!> One case of `faststrip-lab fuzz`: solved, spoiled if asked, checked.
 module faststrip_lab_fuzz_run
     use, intrinsic :: ieee_arithmetic, only: ieee_get_flag, ieee_set_flag, &
                                              ieee_invalid, ieee_divide_by_zero, ieee_overflow
@@ -22,12 +22,12 @@ module faststrip_lab_fuzz_run
     use faststrip_contact_solve, only: solve_contact
     use faststrip_lab_fuzz_cases, only: fuzz_case_t
     use faststrip_lab_fuzz_faults, only: plant_fault
-    use faststrip_lab_fuzz_force_judges, only: judge_forces
-    use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_answer, judge_finite, &
-                                         judge_depth, judge_resolved
-    use faststrip_lab_fuzz_norm_judge, only: judge_by_norm
-    use faststrip_lab_fuzz_relations, only: relations, related_case, judge_relation
-    use faststrip_lab_fuzz_solution_judges, only: judge_figures, judge_contact, judge_gap_curve
+    use faststrip_lab_fuzz_force_checks, only: check_forces
+    use faststrip_lab_fuzz_checks, only: verdict_t, report_badness, check_answer, check_finite, &
+                                         check_depth, check_resolved
+    use faststrip_lab_fuzz_norm_check, only: check_by_norm
+    use faststrip_lab_fuzz_relations, only: relations, related_case, check_relation
+    use faststrip_lab_fuzz_solution_checks, only: check_figures, check_contact, check_gap_curve
     implicit none
     private
 
@@ -40,16 +40,16 @@ module faststrip_lab_fuzz_run
     type :: workspaces_t
         character(len=:), allocatable :: solver !! 'strip' or 'lattice'
         character(len=:), allocatable :: fault  !! planted in every answer, or blank
-        logical :: thorough = .false.           !! every judge on every case?
+        logical :: thorough = .false.           !! every check on every case?
         type(workspace_t) :: workspace          !! grown as needed
         type(lattice_workspace_t) :: lattice
     end type workspaces_t
 
 contains
 
-    !> Solve a case and judge the answer.
+    !> Solve a case and check the answer.
     !>
-    !> Cheap judges see every case. Of the judges that need a second solution one sees it, by the
+    !> Cheap checks see every case. Of the checks that need a second solution one sees it, by the
     !> case's number in turn, and NORM sees one case in a hundred.
     subroutine try_case(seed, case, work, verdict)
         integer, intent(in) :: seed             !! of the series
@@ -62,24 +62,24 @@ contains
         integer :: r
 
         call solve_case(case, .false., work, verdict)
-        if (is_error(verdict%status) .or. verdict%badness(judge_finite) > 1.0_wp) return
+        if (is_error(verdict%status) .or. verdict%badness(check_finite) > 1.0_wp) return
         associate (workspace => work%workspace)
-            call judge_figures(case, workspace%strips, verdict%result, verdict)
+            call check_figures(case, workspace%strips, verdict%result, verdict)
             if (any(verdict%badness > 1.0e8_wp)) return
-            call judge_gap_curve(case%gap, workspace%solver%curve, verdict%result%penetration, &
+            call check_gap_curve(case%gap, workspace%solver%curve, verdict%result%penetration, &
                                  verdict)
-            call judge_contact(case, workspace%solver%curve, workspace%strips, &
+            call check_contact(case, workspace%solver%curve, workspace%strips, &
                                verdict%result, verdict)
             ! An answer to no contact says nothing further.
-            if (verdict%badness(judge_depth) > 1.0_wp) return
+            if (verdict%badness(check_depth) > 1.0_wp) return
             call estimate(case, workspace, verdict)
-            call report_badness(verdict, judge_resolved, maxval(verdict%est_err)/largest_estimate)
-            call judge_forces(seed, case, work%fault, workspace, verdict)
+            call report_badness(verdict, check_resolved, maxval(verdict%est_err)/largest_estimate)
+            call check_forces(seed, case, work%fault, workspace, verdict)
             curve = workspace%solver%curve
             strips = workspace%strips
         end associate
         if (work%thorough .or. has_norm(case%number, verdict%status%code == st_fallback_used)) &
-            call judge_by_norm(case, curve, strips, verdict)
+            call check_by_norm(case, curve, strips, verdict)
         do r = 1, size(relations)
             if (work%thorough .or. modulo(case%number/2, size(relations)) == r - 1) &
                 call try_relation(relations(r), case, curve, work, verdict)
@@ -111,7 +111,7 @@ contains
         if (.not. has_one) return
         call solve_case(other_case, .true., work, other)
         if (.not. is_error(other%status)) call estimate(other_case, work%workspace, other)
-        call judge_relation(relation, verdict, curve, other, work%workspace%solver%curve)
+        call check_relation(relation, verdict, curve, other, work%workspace%solver%curve)
     end subroutine try_relation
 
     !> Solve a case, note how long it took, and plant the fault. The call for embedding keeps the
@@ -153,15 +153,15 @@ contains
         end if
         call system_clock(after)
         verdict%time_us = 1.0e6_wp*real(after - before, wp)/real(rate, wp)
-        call report_badness(verdict, judge_finite, merge(huge(1.0_wp), 0.0_wp, exception_raised()))
+        call report_badness(verdict, check_finite, merge(huge(1.0_wp), 0.0_wp, exception_raised()))
         verdict%strips = work%workspace%strips%n
         if (is_error(verdict%status)) then
-            call report_badness(verdict, judge_answer, &
+            call report_badness(verdict, check_answer, &
                                 merge(0.0_wp, huge(1.0_wp), &
                                       may_be_refused(case, verdict%status)))
             return
         end if
-        call report_badness(verdict, judge_answer, 0.0_wp)
+        call report_badness(verdict, check_answer, 0.0_wp)
         ! The tangential methods ask for a solved workspace.
         work%workspace%solved_by = normal_strip
         call plant_fault(work%fault, work%workspace%solver%curve, work%workspace%strips, &

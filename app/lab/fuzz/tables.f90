@@ -7,8 +7,8 @@ module faststrip_lab_fuzz_tables
                                    read_csv, read_cell, put_cells
     use faststrip_command_program_console, only: say, fail, fail_on_error, exit_bad_input
     use faststrip_lab_fuzz_cases, only: fuzz_case_t, all_families
-    use faststrip_lab_fuzz_judges, only: verdict_t, is_broken, broken_judges, n_judges, &
-                                         judge_names, judge_demands
+    use faststrip_lab_fuzz_checks, only: verdict_t, is_broken, broken_checks, n_checks, &
+                                         check_names, check_demands
     implicit none
     private
 
@@ -25,12 +25,12 @@ contains
         integer :: i
 
         do i = 1, size(verdicts)
-            is_bad(i) = broken_judges(verdicts(i)) /= ''
+            is_bad(i) = broken_checks(verdicts(i)) /= ''
             if (is_bad(i)) &
                 call say('case ' // integer_text(numbers(i)) // ' (' &
                          // trim(all_families(family(i))) // ', ' &
                          // trim(status_word(verdicts(i)%status%code)) // '): ' &
-                         // broken_judges(verdicts(i)) // '; ' &
+                         // broken_checks(verdicts(i)) // '; ' &
                          // trim(verdicts(i)%status%message))
         end do
         call say('family        status                    cases    share   failed checks')
@@ -38,7 +38,7 @@ contains
         do i = 1, size(all_families)
             call print_rows(all_families(i), verdicts, is_bad, family == i)
         end do
-        call print_judges(numbers, verdicts)
+        call print_checks(numbers, verdicts)
         call print_times(numbers, verdicts)
         call print_worst('slowest, ms', numbers, verdicts, 1.0e-3_wp*verdicts%time_us)
         if (any(is_bad)) &
@@ -47,9 +47,9 @@ contains
                       // 'faststrip-lab fuzz --case CASE')
     end subroutine print_verdicts
 
-    !> Judge by judge: how many cases it saw, how many broke its rule, how many of these were
+    !> Check by check: how many cases it saw, how many broke its rule, how many of these were
     !> excused by a named limitation, and the worst of the others.
-    subroutine print_judges(numbers, verdicts)
+    subroutine print_checks(numbers, verdicts)
         integer, intent(in) :: numbers(:)
         type(verdict_t), intent(in) :: verdicts(:)
 
@@ -59,8 +59,8 @@ contains
         real(wp) :: worst
         integer :: i, j
 
-        call say('judge         tried    broken   excused     worst      case  what it demands')
-        do j = 1, n_judges
+        call say('check         tried    broken   excused     worst      case  what it demands')
+        do j = 1, n_checks
             do i = 1, size(verdicts)
                 over(i) = verdicts(i)%badness(j) > 1.0_wp
                 broken(i) = is_broken(verdicts(i)%badness(j), verdicts(i)%status%code, j)
@@ -72,12 +72,12 @@ contains
                 worst = max(verdicts(i)%badness(j), 0.0_wp)
                 if (verdicts(i)%badness(j) > 0.0_wp) worst_case = integer_text(numbers(i))
             end if
-            write (line, '(a, i7, 2i10, es10.2, a10, 2x, a)') judge_names(j), &
+            write (line, '(a, i7, 2i10, es10.2, a10, 2x, a)') check_names(j), &
                 count(verdicts%badness(j) >= 0.0_wp), count(broken), &
-                count(over .and. .not. broken), worst, adjustr(worst_case), judge_demands(j)
+                count(over .and. .not. broken), worst, adjustr(worst_case), check_demands(j)
             call say(trim(line))
         end do
-    end subroutine print_judges
+    end subroutine print_checks
 
     !> Take the verdicts from the rows of an earlier run.
     subroutine read_verdicts(path, numbers, family, verdicts)
@@ -102,8 +102,8 @@ contains
             call read_cell(table, row, 'status', word, status)
             call read_cell(table, row, 'message', message, status)
             call read_cell(table, row, 'time_us', verdicts(row)%time_us, status)
-            do i = 1, n_judges
-                call read_cell(table, row, trim(judge_names(i)), verdicts(row)%badness(i), status)
+            do i = 1, n_checks
+                call read_cell(table, row, trim(check_names(i)), verdicts(row)%badness(i), status)
             end do
             call fail_on_error(status)
             family(row) = findloc(all_families == name, .true., dim=1)
@@ -222,10 +222,10 @@ contains
                                  'strips', 'patches', 'penetration_mm', 'area_mm2', 'pmax_MPa', &
                                  'ymin_mm', 'ymax_mm', 'load_error', 'overlap', 'overlap_y_mm', &
                                  'est_penetration', 'est_pmax', 'est_area', 'passes', &
-                                 'iterations', 'time_us', judge_names])
+                                 'iterations', 'time_us', check_names])
     end subroutine put_fuzz_header
 
-    !> One case; of each judge what it found over what it allows, -1 where it was not asked.
+    !> One case; of each check what it found over what it allows, -1 where it was not asked.
     subroutine put_fuzz_row(writer, case, verdict)
         type(csv_writer_t), intent(inout) :: writer !! an open file with its header
         type(fuzz_case_t), intent(in) :: case
@@ -237,7 +237,7 @@ contains
         call put_cell(writer, case%methods%strips_per_patch)
         call put_cell(writer, size(case%gap%y))
         call put_cell(writer, trim(status_word(verdict%status%code)))
-        call put_cell(writer, broken_judges(verdict))
+        call put_cell(writer, broken_checks(verdict))
         call put_cell(writer, trim(verdict%status%message))
         call put_cells(writer, [verdict%strips, verdict%result%n_patches])
         call put_cells(writer, [verdict%result%penetration, verdict%result%area, &

@@ -26,7 +26,7 @@ module faststrip_lab_random_gaps
     integer, parameter :: most_terms = 8
     real(wp), parameter :: noise_height = 0.5e-3_wp ! of a measured profile, mm
 
-    !> One case: the gap and the load of a contact. Material and creepages are the judges'.
+    !> One case: the gap and the load of a contact. Material and creepages are the checks'.
     type, extends(contact_case_t) :: fuzz_case_t
         integer :: number = 0      !! from 1
         integer :: family = 0      !! index of `family_names`

@@ -1,10 +1,10 @@
-!> Judges of one normal solution: the figures against the strips, the strips against the gap.
+!> Checks of one normal solution: the figures against the strips, the strips against the gap.
 !>
 !> Nothing that the solver computed is taken for granted: the compliance comes from the moduli, the
 !> displacements from `faststrip_lab_fuzz_influence`, the figures from the strips by formulas of
-!> their own. Only the curve through the gap's points is the library's; a judge of its own holds it
+!> their own. Only the curve through the gap's points is the library's; a check of its own holds it
 !> against the points.
-module faststrip_lab_fuzz_solution_judges
+module faststrip_lab_fuzz_solution_checks
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
     use faststrip_geometry_gap, only: gap_t
@@ -13,14 +13,14 @@ module faststrip_lab_fuzz_solution_judges
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_lab_fuzz_influence, only: displacement
-    use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_finite, judge_order, &
-                                         judge_load, judge_pmax, judge_area, judge_ends, &
-                                         judge_depth, judge_centre, judge_tip, judge_middle, &
-                                         judge_outside, judge_curve
+    use faststrip_lab_fuzz_checks, only: verdict_t, report_badness, check_finite, check_order, &
+                                         check_load, check_pmax, check_area, check_ends, &
+                                         check_depth, check_centre, check_tip, check_middle, &
+                                         check_outside, check_curve
     implicit none
     private
 
-    public :: judge_figures, judge_contact, judge_gap_curve
+    public :: check_figures, check_contact, check_gap_curve
 
     real(wp), parameter :: load_tolerance = 1.0e-6_wp
     real(wp), parameter :: rounding = 1.0e-9_wp
@@ -34,7 +34,7 @@ module faststrip_lab_fuzz_solution_judges
     real(wp), parameter :: area_tolerance = 1.0e-3_wp
     real(wp), parameter :: dip_tolerance = 0.02_wp  ! of D - h_lowest
 
-    integer, parameter :: most_strips_judged = 24, scan_places = 1000, places_in_interval = 3
+    integer, parameter :: most_strips_checkd = 24, scan_places = 1000, places_in_interval = 3
 
     !> Bodies pressed together.
     type :: deformed_t
@@ -46,7 +46,7 @@ module faststrip_lab_fuzz_solution_judges
 contains
 
     !> The figures against the strips they were made of.
-    pure subroutine judge_figures(case, strips, result, verdict)
+    pure subroutine check_figures(case, strips, result, verdict)
         class(contact_case_t), intent(in) :: case    !! load that was asked, gap
         type(contact_strips_t), intent(in) :: strips
         type(normal_result_t), intent(in) :: result
@@ -57,7 +57,7 @@ contains
         logical :: good
 
         n = strips%n
-        call say_whether(verdict, judge_finite, n >= 1)
+        call say_whether(verdict, check_finite, n >= 1)
         if (n < 1) return
         associate (left => strips%y_left(:n), right => strips%y_right(:n), p0 => strips%p0(:n), &
                    half_length => strips%half_length(:n))
@@ -65,20 +65,20 @@ contains
                    .and. all(ieee_is_finite([result%load, result%penetration, result%area, &
                                              result%pmax, result%y_min, result%y_max, &
                                              result%x_max]))
-            call say_whether(verdict, judge_finite, good)
+            call say_whether(verdict, check_finite, good)
             if (.not. good) return
             good = all(p0 > 0.0_wp) .and. all(half_length > 0.0_wp) .and. all(right > left) &
                    .and. all(left(2:) >= right(:n - 1)) .and. left(1) >= case%gap%y(1) &
                    .and. right(n) <= case%gap%y(size(case%gap%y))
-            call say_whether(verdict, judge_order, good)
+            call say_whether(verdict, check_order, good)
             if (.not. good) return
             carried = 0.5_wp*pi*sum(p0*half_length*(right - left))
             verdict%load_error = carried/case%load - 1.0_wp
-            call report_badness(verdict, judge_load, &
+            call report_badness(verdict, check_load, &
                                 max(abs(carried - case%load), abs(result%load - case%load)) &
                                 /(load_tolerance*case%load))
-            call judge_peak(result%pmax, maxval(p0), p0, strips, judge_pmax, verdict)
-            call judge_peak(result%x_max, maxval(half_length), half_length, strips, judge_ends, &
+            call check_peak(result%pmax, maxval(p0), p0, strips, check_pmax, verdict)
+            call check_peak(result%x_max, maxval(half_length), half_length, strips, check_ends, &
                             verdict)
             area = 0.0_wp
             jumps = 0.0_wp
@@ -95,25 +95,25 @@ contains
             end do
             ! Strips of constant length take a round patch for too large, chords for too small.
             plain_area = 2.0_wp*sum(half_length*(right - left))
-            call report_badness(verdict, judge_area, &
+            call report_badness(verdict, check_area, &
                                 abs(result%area - 0.5_wp*(area + plain_area)) &
                                 /(abs(plain_area - area) + jumps + area_tolerance*plain_area))
-            call report_badness(verdict, judge_ends, &
+            call report_badness(verdict, check_ends, &
                                 max(abs(result%y_min - left(1)), abs(result%y_max - right(n))) &
                                 /(rounding*(right(n) - left(1)) &
                                   + epsilon(1.0_wp)*maxval(abs([left(1), right(n)]))))
-            call say_whether(verdict, judge_ends, result%n_patches == n_patches &
+            call say_whether(verdict, check_ends, result%n_patches == n_patches &
                              .and. strips%n_patches == n_patches)
         end associate
-    end subroutine judge_figures
+    end subroutine check_figures
 
     !> A peak is at the largest strip, or above it by what a curve through its square and those of
     !> the neighbours can rise: an eighth of the larger fall to a neighbour, and four times that
     !> for strips of unlike widths and falls.
-    pure subroutine judge_peak(peak, largest, values, strips, judge, verdict)
+    pure subroutine check_peak(peak, largest, values, strips, check, verdict)
         real(wp), intent(in) :: peak, largest, values(:)
         type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: judge
+        integer, intent(in) :: check
         type(verdict_t), intent(inout) :: verdict
 
         real(wp) :: fall, above
@@ -127,9 +127,9 @@ contains
         end do
         above = sqrt(largest**2 + 0.5_wp*fall)
         if (peak <= largest) then
-            call report_badness(verdict, judge, (largest - peak)/(rounding*largest))
+            call report_badness(verdict, check, (largest - peak)/(rounding*largest))
         else
-            call report_badness(verdict, judge, (peak - largest)/(above - largest &
+            call report_badness(verdict, check, (peak - largest)/(above - largest &
                                                                   + rounding*largest))
         end if
 
@@ -143,7 +143,7 @@ contains
             if (k < 1 .or. k > strips%n) return
             if (strips%patch(k) == strips%patch(of)) neighbour = values(k)**2
         end function neighbour
-    end subroutine judge_peak
+    end subroutine check_peak
 
     !> Area of a patch whose squared half-length is linear between the middles of strips and
     !> vanishes at the ends.
@@ -189,7 +189,7 @@ contains
     end function unevenness
 
     !> The strips against the gap: closed in the patches, open outside.
-    subroutine judge_contact(case, curve, strips, result, verdict)
+    subroutine check_contact(case, curve, strips, result, verdict)
         class(contact_case_t), intent(in) :: case    !! moduli
         type(gap_curve_t), intent(in) :: curve       !! of its gap
         type(contact_strips_t), intent(in) :: strips
@@ -200,15 +200,15 @@ contains
 
         deformed%penetration = result%penetration
         deformed%depth = result%penetration - curve%h_lowest
-        call say_whether(verdict, judge_depth, deformed%depth > 0.0_wp)
+        call say_whether(verdict, check_depth, deformed%depth > 0.0_wp)
         if (.not. deformed%depth > 0.0_wp) return
         associate (material => case%material)
             deformed%compliance = ((1.0_wp - material%nu_wheel**2)/material%e_wheel &
                                    + (1.0_wp - material%nu_rail**2)/material%e_rail)/pi
         end associate
-        call judge_patches(deformed, curve, strips, verdict)
-        call judge_surroundings(deformed, curve, strips, verdict)
-    end subroutine judge_contact
+        call check_patches(deformed, curve, strips, verdict)
+        call check_surroundings(deformed, curve, strips, verdict)
+    end subroutine check_contact
 
     !> Distance of the deformed surfaces at a place over D - h_lowest.
     real(wp) function opening(deformed, curve, strips, x, y)
@@ -225,7 +225,7 @@ contains
     end function opening
 
     !> Closed in the patches: at the middles and tips of strips, and nearly so between them.
-    subroutine judge_patches(deformed, curve, strips, verdict)
+    subroutine check_patches(deformed, curve, strips, verdict)
         type(deformed_t), intent(in) :: deformed
         type(gap_curve_t), intent(in) :: curve
         type(contact_strips_t), intent(in) :: strips
@@ -234,7 +234,7 @@ contains
         real(wp) :: y, middle, weight, weights, shift, play
         integer :: k, stride, first, last
 
-        stride = 1 + (strips%n - 1)/most_strips_judged
+        stride = 1 + (strips%n - 1)/most_strips_checkd
         middle = 0.0_wp
         weights = 0.0_wp
         last = 0
@@ -250,16 +250,16 @@ contains
             shift = place_tolerance*(strips%y_right(last) - strips%y_left(first))
             play = abs(height_at(y + shift) - height_at(y - shift))/deformed%depth
             associate (xd => strips%half_length(k))
-                call report_badness(verdict, judge_centre, abs(opened(0.0_wp)) &
+                call report_badness(verdict, check_centre, abs(opened(0.0_wp)) &
                                     /(closed_tolerance + play))
-                call report_badness(verdict, judge_tip, abs(opened(xd)) &
+                call report_badness(verdict, check_tip, abs(opened(xd)) &
                                     /(closed_tolerance + play))
                 weight = strips%y_right(k) - strips%y_left(k)
                 middle = middle + weight*max(abs(opened(0.5_wp*xd)) - play, 0.0_wp)
                 weights = weights + weight
             end associate
         end do
-        call report_badness(verdict, judge_middle, middle/(weights*middle_tolerance))
+        call report_badness(verdict, check_middle, middle/(weights*middle_tolerance))
 
     contains
 
@@ -277,11 +277,11 @@ contains
 
             call gap_at(curve, at, height_at, inv2r)
         end function height_at
-    end subroutine judge_patches
+    end subroutine check_patches
 
     !> Open outside, at places on the line x = 0, more than half an end strip away from the patches:
     !> what is nearer belongs to where the ends are.
-    subroutine judge_surroundings(deformed, curve, strips, verdict)
+    subroutine check_surroundings(deformed, curve, strips, verdict)
         type(deformed_t), intent(in) :: deformed
         type(gap_curve_t), intent(in) :: curve
         type(contact_strips_t), intent(in) :: strips
@@ -290,7 +290,7 @@ contains
         real(wp) :: at, h, inv2r, gap
         integer :: i, next
 
-        call report_badness(verdict, judge_outside, 0.0_wp)
+        call report_badness(verdict, check_outside, 0.0_wp)
         next = 1
         do i = 0, scan_places
             at = curve%y(1) + (curve%y(curve%n) - curve%y(1))*real(i, wp)/scan_places
@@ -304,23 +304,23 @@ contains
                 if (1.5_wp*strips%y_left(next) - 0.5_wp*strips%y_right(next) <= at) cycle
             end if
             gap = opening(deformed, curve, strips, 0.0_wp, at)
-            call report_badness(verdict, judge_outside, -gap/overlap_tolerance)
+            call report_badness(verdict, check_outside, -gap/overlap_tolerance)
             if (-gap <= verdict%overlap) cycle
             verdict%overlap = -gap
             verdict%overlap_y = at
         end do
-    end subroutine judge_surroundings
+    end subroutine check_surroundings
 
     !> The curve against its points: it passes through them, and between two of them it dips by no
     !> more than twice what the smaller of the bends there makes, or the bend at a point that is
     !> lower than its neighbours: that of the parabola through the three.
-    subroutine judge_gap_curve(gap, curve, penetration, verdict)
+    subroutine check_gap_curve(gap, curve, penetration, verdict)
         type(gap_t), intent(in) :: gap
         type(gap_curve_t), intent(in) :: curve    !! of the gap
         real(wp), intent(in) :: penetration       !! from h = 0, mm
         type(verdict_t), intent(inout) :: verdict
 
-        ! Below this part of the largest the solver may raise the longitudinal term. The judge's
+        ! Below this part of the largest the solver may raise the longitudinal term. The check's
         ! own bound, not the solver's share of the mean: so it notices a change of that.
         real(wp), parameter :: raised_part = 0.03_wp
         real(wp) :: depth, bend(size(gap%y)), floor, lowest, h, inv2r, y, size_of_h, largest_term
@@ -343,13 +343,13 @@ contains
             lowest = min(lowest, floor_of(i))
         end do
         depth = penetration - lowest
-        call say_whether(verdict, judge_depth, depth > 0.0_wp)
+        call say_whether(verdict, check_depth, depth > 0.0_wp)
         if (.not. depth > 0.0_wp) return
-        call report_badness(verdict, judge_curve, 0.0_wp)
+        call report_badness(verdict, check_curve, 0.0_wp)
         do i = 1, n - 1
             size_of_h = max(abs(gap%h(i)), abs(gap%h(i + 1)))
             call gap_at(curve, gap%y(i), h, inv2r)
-            call report_badness(verdict, judge_curve, &
+            call report_badness(verdict, check_curve, &
                                 abs(h - gap%h(i))/(rounding*depth + 1.0e-12_wp*size_of_h))
             call hold_term(inv2r, gap%inv2r(i), gap%inv2r(i))
             floor = floor_of(i)
@@ -358,7 +358,7 @@ contains
                 call gap_at(curve, y, h, inv2r)
                 call hold_term(inv2r, minval(gap%inv2r(i:i + 1)), maxval(gap%inv2r(i:i + 1)))
                 if (h > penetration) cycle
-                call report_badness(verdict, judge_curve, &
+                call report_badness(verdict, check_curve, &
                                     (floor - h)/(dip_tolerance*depth + 1.0e-12_wp*size_of_h))
             end do
         end do
@@ -385,10 +385,10 @@ contains
 
             raised = max(highest_term, merge(raised_part*largest_term, highest_term, &
                                              lowest_term < raised_part*largest_term))
-            call report_badness(verdict, judge_curve, &
+            call report_badness(verdict, check_curve, &
                                 max(lowest_term - inv2r, inv2r - raised)/(rounding*largest_term))
         end subroutine hold_term
-    end subroutine judge_gap_curve
+    end subroutine check_gap_curve
 
     pure integer function end_of_patch(strips, first) result(last)
         type(contact_strips_t), intent(in) :: strips
@@ -400,11 +400,11 @@ contains
         last = strips%n
     end function end_of_patch
 
-    pure subroutine say_whether(verdict, judge, good)
+    pure subroutine say_whether(verdict, check, good)
         type(verdict_t), intent(inout) :: verdict
-        integer, intent(in) :: judge
+        integer, intent(in) :: check
         logical, intent(in) :: good
 
-        call report_badness(verdict, judge, merge(0.0_wp, huge(1.0_wp), good))
+        call report_badness(verdict, check, merge(0.0_wp, huge(1.0_wp), good))
     end subroutine say_whether
-end module faststrip_lab_fuzz_solution_judges
+end module faststrip_lab_fuzz_solution_checks

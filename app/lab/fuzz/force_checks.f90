@@ -1,8 +1,8 @@
-!> Judges of the creep forces on a normal solution.
+!> Checks of the creep forces on a normal solution.
 !>
 !> The creepages of a case are drawn in units of those at which the linear forces reach the bound,
 !> from far below to far above.
-module faststrip_lab_fuzz_force_judges
+module faststrip_lab_fuzz_force_checks
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_creepage, only: creepage_t
@@ -16,14 +16,14 @@ module faststrip_lab_fuzz_force_judges
     use faststrip_contact_solve, only: solve_contact_forces
     use faststrip_lab_random_gaps, only: fuzz_case_t
     use faststrip_lab_random_numbers, only: random_t, start_random, log_uniform, chance
-    use faststrip_lab_fuzz_judges, only: verdict_t, report_badness, judge_answer, judge_bound, &
-                                         judge_moment, judge_power, judge_saturation, &
-                                         judge_force_mirror, judge_force_sign
+    use faststrip_lab_fuzz_checks, only: verdict_t, report_badness, check_answer, check_bound, &
+                                         check_moment, check_power, check_saturation, &
+                                         check_force_mirror, check_force_sign
     use faststrip_lab_fuzz_faults, only: plant_force_fault
     implicit none
     private
 
-    public :: judge_forces
+    public :: check_forces
 
     !> All that are bounded by mu N.
     integer, parameter :: methods(6) = [tangential_faststrip, tangential_fastsim, &
@@ -48,8 +48,8 @@ module faststrip_lab_fuzz_force_judges
 
 contains
 
-    !> Judge the forces on the strips of a workspace.
-    subroutine judge_forces(seed, case, fault, workspace, verdict)
+    !> Check the forces on the strips of a workspace.
+    subroutine check_forces(seed, case, fault, workspace, verdict)
         integer, intent(in) :: seed                    !! of the series
         type(fuzz_case_t), intent(in) :: case          !! number, moduli, load
         character(len=*), intent(in) :: fault          !! planted, or blank
@@ -70,15 +70,15 @@ contains
         asked%methods%fastsim_ny = 20
         call draw_creepage(seed, case%number, scales, asked%creepage)
         if (.not. found(asked, forces)) return
-        call report_badness(verdict, judge_bound, hypot(forces%fx, forces%fy) &
+        call report_badness(verdict, check_bound, hypot(forces%fx, forces%fy) &
                             /(scales%force*(1.0_wp + rounding)))
-        call report_badness(verdict, judge_moment, abs(forces%mz)/(arm_factor*scales%moment))
-        call judge_dissipation(asked, forces, scales, verdict)
+        call report_badness(verdict, check_moment, abs(forces%mz)/(arm_factor*scales%moment))
+        call check_dissipation(asked, forces, scales, verdict)
 
         asked%creepage = creepage_t(-asked%creepage%cksi, -asked%creepage%ceta, &
                                     -asked%creepage%cphi)
         if (.not. found(asked, other)) return
-        call report_badness(verdict, judge_force_sign, max( &
+        call report_badness(verdict, check_force_sign, max( &
             hypot(forces%fx + other%fx, forces%fy + other%fy)/scales%force, &
             abs(forces%mz + other%mz)/scales%moment)/same)
 
@@ -87,7 +87,7 @@ contains
         kept = workspace%strips
         call mirror_strips(kept, workspace%strips)
         if (found(asked, other)) &
-            call report_badness(verdict, judge_force_mirror, max( &
+            call report_badness(verdict, check_force_mirror, max( &
                 hypot(forces%fx - other%fx, forces%fy + other%fy)/scales%force, &
                 abs(forces%mz + other%mz)/scales%moment)/same)
         workspace%strips = kept
@@ -95,7 +95,7 @@ contains
         asked%creepage = creepage_t(min(large*scales%creepage*slenderness(workspace%strips), &
                                         largest_creepage), 0.0_wp, 0.0_wp)
         if (.not. found(asked, other)) return
-        call report_badness(verdict, judge_saturation, &
+        call report_badness(verdict, check_saturation, &
                             abs(other%fx + scales%force)/(saturated*scales%force))
 
     contains
@@ -111,10 +111,10 @@ contains
             call solve_contact_forces(workspace, asked, result, status)
             answer = result%tangential
             found = .not. is_error(status)
-            if (.not. found) call report_badness(verdict, judge_answer, huge(1.0_wp))
+            if (.not. found) call report_badness(verdict, check_answer, huge(1.0_wp))
             call plant_force_fault(fault, answer)
         end function found
-    end subroutine judge_forces
+    end subroutine check_forces
 
     !> The scales of a case on its strips.
     pure type(scales_t) function scales_of(case, strips) result(scales)
@@ -158,7 +158,7 @@ contains
     end subroutine draw_creepage
 
     !> The forces take power out, and FASTSTRIP's friction power is just that.
-    pure subroutine judge_dissipation(asked, forces, scales, verdict)
+    pure subroutine check_dissipation(asked, forces, scales, verdict)
         type(contact_case_t), intent(in) :: asked
         type(tangential_result_t), intent(in) :: forces
         type(scales_t), intent(in) :: scales
@@ -171,12 +171,12 @@ contains
             unit = max(scales%force*(abs(c%cksi) + abs(c%ceta)) + scales%moment*abs(c%cphi), &
                        tiny(unit)/rounding)
         end associate
-        call report_badness(verdict, judge_power, &
+        call report_badness(verdict, check_power, &
                             max(-input, -forces%friction_power)/(rounding*unit))
         if (asked%methods%tangential == tangential_faststrip) &
-            call report_badness(verdict, judge_power, abs(input - forces%friction_power) &
+            call report_badness(verdict, check_power, abs(input - forces%friction_power) &
                                 /(rounding*unit))
-    end subroutine judge_dissipation
+    end subroutine check_dissipation
 
     !> Length over width of the slimmest strip's patch or the reverse, at least one: slim patches
     !> are soft.
@@ -204,4 +204,4 @@ contains
             mirrored%patch(:n) = strips%n_patches + 1 - strips%patch(n:1:-1)
         end associate
     end subroutine mirror_strips
-end module faststrip_lab_fuzz_force_judges
+end module faststrip_lab_fuzz_force_checks

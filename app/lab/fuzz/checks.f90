@@ -1,9 +1,9 @@
-!> The judges of `faststrip-lab fuzz`, what each demands, and what a named limitation excuses.
+!> The checks of `faststrip-lab fuzz`, what each demands, and what a named limitation excuses.
 !>
-!> A judge measures how far an answer is from what must hold, in units of what is allowed: up to
-!> one is well. `ok` has to please them all. A limitation is excused only from what it is about:
+!> A check measures how far an answer is from what must hold, in units of what is allowed: up to
+!> one is well. `ok` has to pass them all. A limitation is excused only from what it is about:
 !> `allowance` is the whole list.
-module faststrip_lab_fuzz_judges
+module faststrip_lab_fuzz_checks
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, status_word
@@ -11,34 +11,34 @@ module faststrip_lab_fuzz_judges
     implicit none
     private
 
-    public :: verdict_t, report_badness, is_broken, broken_judges
-    public :: n_judges, judge_names, judge_demands
-    public :: judge_answer, judge_finite, judge_order, judge_load, judge_pmax, judge_area, &
-              judge_ends, judge_depth, judge_centre, judge_tip, judge_middle, judge_outside, &
-              judge_curve, judge_resolved, judge_mirror, judge_scale, judge_stiffness, &
-              judge_monotone, judge_wall, judge_bound, judge_moment, judge_power, &
-              judge_saturation, judge_force_mirror, judge_force_sign, judge_norm_depth, &
-              judge_norm_pmax, judge_norm_area
+    public :: verdict_t, report_badness, is_broken, broken_checks
+    public :: n_checks, check_names, check_demands
+    public :: check_answer, check_finite, check_order, check_load, check_pmax, check_area, &
+              check_ends, check_depth, check_centre, check_tip, check_middle, check_outside, &
+              check_curve, check_resolved, check_mirror, check_scale, check_stiffness, &
+              check_monotone, check_wall, check_bound, check_moment, check_power, &
+              check_saturation, check_force_mirror, check_force_sign, check_norm_depth, &
+              check_norm_pmax, check_norm_area
 
-    integer, parameter :: judge_answer = 1, judge_finite = 2, judge_order = 3, judge_load = 4, &
-                          judge_pmax = 5, judge_area = 6, judge_ends = 7, judge_depth = 8, &
-                          judge_centre = 9, judge_tip = 10, judge_middle = 11, &
-                          judge_outside = 12, judge_curve = 13, judge_resolved = 14, &
-                          judge_mirror = 15, judge_scale = 16, judge_stiffness = 17, &
-                          judge_monotone = 18, judge_wall = 19, judge_bound = 20, &
-                          judge_moment = 21, judge_power = 22, judge_saturation = 23, &
-                          judge_force_mirror = 24, judge_force_sign = 25, &
-                          judge_norm_depth = 26, judge_norm_pmax = 27, judge_norm_area = 28
-    integer, parameter :: n_judges = 28
+    integer, parameter :: check_answer = 1, check_finite = 2, check_order = 3, check_load = 4, &
+                          check_pmax = 5, check_area = 6, check_ends = 7, check_depth = 8, &
+                          check_centre = 9, check_tip = 10, check_middle = 11, &
+                          check_outside = 12, check_curve = 13, check_resolved = 14, &
+                          check_mirror = 15, check_scale = 16, check_stiffness = 17, &
+                          check_monotone = 18, check_wall = 19, check_bound = 20, &
+                          check_moment = 21, check_power = 22, check_saturation = 23, &
+                          check_force_mirror = 24, check_force_sign = 25, &
+                          check_norm_depth = 26, check_norm_pmax = 27, check_norm_area = 28
+    integer, parameter :: n_checks = 28
 
-    character(len=12), parameter :: judge_names(n_judges) = [character(len=12) :: &
+    character(len=12), parameter :: check_names(n_checks) = [character(len=12) :: &
         'answer', 'finite', 'order', 'load', 'pmax', 'area', 'ends', 'depth', 'centre', 'tip', &
         'middle', 'outside', 'curve', 'resolved', 'mirror', 'scale', 'stiffness', 'monotone', &
         'wall', 'bound', 'moment', 'power', 'saturation', 'force_mirror', 'force_sign', &
         'norm_depth', 'norm_pmax', 'norm_area']
 
     !> In words, for the table.
-    character(len=56), parameter :: judge_demands(n_judges) = [character(len=56) :: &
+    character(len=56), parameter :: check_demands(n_checks) = [character(len=56) :: &
         'an answer, or an error with a reason that holds', &
         'finite numbers, no floating exception', &
         'positive pressures and lengths, edges in order', &
@@ -78,49 +78,49 @@ module faststrip_lab_fuzz_judges
         real(wp) :: overlap_y = 0.0_wp  !! where, mm
         real(wp) :: est_err(3) = 0.0_wp !! estimates for penetration, pmax, area
         real(wp) :: time_us = 0.0_wp
-        real(wp) :: badness(n_judges) = -1.0_wp !! over what is allowed; negative: not judged
+        real(wp) :: badness(n_checks) = -1.0_wp !! over what is allowed; negative: not checked
     end type verdict_t
 
-    integer, parameter :: of_norm(3) = [judge_norm_depth, judge_norm_pmax, judge_norm_area]
+    integer, parameter :: of_norm(3) = [check_norm_depth, check_norm_pmax, check_norm_area]
 
 contains
 
-    !> Add a badness to a judge's; the largest counts.
-    pure subroutine report_badness(verdict, judge, badness)
+    !> Add a badness to a check's; the largest counts.
+    pure subroutine report_badness(verdict, check, badness)
         type(verdict_t), intent(inout) :: verdict
-        integer, intent(in) :: judge         !! one of the `judge_` numbers
+        integer, intent(in) :: check         !! one of the `check_` numbers
         real(wp), intent(in) :: badness      !! over what is allowed
 
         real(wp), parameter :: hopeless = 1.0e9_wp ! what is not finite
 
-        verdict%badness(judge) = max(verdict%badness(judge), 0.0_wp, &
+        verdict%badness(check) = max(verdict%badness(check), 0.0_wp, &
                                      merge(min(badness, hopeless), hopeless, &
                                            ieee_is_finite(badness)))
     end subroutine report_badness
 
-    !> Is a judge displeased, and by more than the status allows?
-    elemental logical function is_broken(badness, code, judge)
+    !> Does a check fail, and by more than the status allows?
+    elemental logical function is_broken(badness, code, check)
         real(wp), intent(in) :: badness
-        integer, intent(in) :: code, judge
+        integer, intent(in) :: code, check
 
         is_broken = badness > 1.0_wp
-        if (is_broken) is_broken = badness > allowance(status_word(code), judge)
+        if (is_broken) is_broken = badness > allowance(status_word(code), check)
     end function is_broken
 
-    !> Names of the judges that are displeased without excuse, parted by blanks.
-    pure function broken_judges(verdict) result(names)
+    !> Names of the checks that fail without excuse, parted by blanks.
+    pure function broken_checks(verdict) result(names)
         type(verdict_t), intent(in) :: verdict
         character(len=:), allocatable :: names
 
         integer :: j
 
         names = ''
-        do j = 1, n_judges
+        do j = 1, n_checks
             if (is_broken(verdict%badness(j), verdict%status%code, j)) &
-                names = names // ' ' // trim(judge_names(j))
+                names = names // ' ' // trim(check_names(j))
         end do
         names = trim(adjustl(names))
-    end function broken_judges
+    end function broken_checks
 
     !> How many times what `ok` is allowed a named limitation may have. The whole list:
     !>
@@ -142,33 +142,33 @@ contains
     !> - what lies behind the contact may change the name of any limitation, and an answer that
     !>   rests
     !>   on it.
-    pure real(wp) function allowance(word, judge)
+    pure real(wp) function allowance(word, check)
         character(len=*), intent(in) :: word !! the status, `status_word`
-        integer, intent(in) :: judge
+        integer, intent(in) :: check
 
         real(wp), parameter :: free = huge(1.0_wp)
 
         allowance = 1.0_wp
         if (word == 'ok') return
-        if (judge == judge_resolved) allowance = free
-        if (judge == judge_wall .and. word /= 'more_strips') allowance = free
+        if (check == check_resolved) allowance = free
+        if (check == check_wall .and. word /= 'more_strips') allowance = free
         select case (word)
         case ('fallback_used')
-            if (judge == judge_centre .or. judge == judge_tip) allowance = free
-            if (judge == judge_middle .or. judge == judge_monotone) allowance = 3.0_wp
-            if (any(judge == of_norm)) allowance = 3.0_wp
-            if (judge == judge_outside) allowance = 50.0_wp
+            if (check == check_centre .or. check == check_tip) allowance = free
+            if (check == check_middle .or. check == check_monotone) allowance = 3.0_wp
+            if (any(check == of_norm)) allowance = 3.0_wp
+            if (check == check_outside) allowance = 50.0_wp
         case ('conformal')
-            if (judge == judge_centre .or. judge == judge_tip) allowance = 1.0e4_wp
-            if (judge == judge_middle) allowance = 3.0_wp
+            if (check == check_centre .or. check == check_tip) allowance = 1.0e4_wp
+            if (check == check_middle) allowance = 3.0_wp
         case ('overlap_left')
-            if (judge == judge_outside) allowance = free
+            if (check == check_outside) allowance = free
         case ('edge_of_data')
-            if (judge == judge_norm_pmax) allowance = free
-            if (judge == judge_middle .or. judge == judge_centre) allowance = 3.0_wp
+            if (check == check_norm_pmax) allowance = free
+            if (check == check_middle .or. check == check_centre) allowance = 3.0_wp
         case ('flat_along_x', 'under_resolved', 'fewer_strips')
-            if (judge == judge_middle .or. judge == judge_monotone) allowance = 3.0_wp
-            if (any(judge == of_norm)) allowance = 3.0_wp
+            if (check == check_middle .or. check == check_monotone) allowance = 3.0_wp
+            if (any(check == of_norm)) allowance = 3.0_wp
         end select
     end function allowance
-end module faststrip_lab_fuzz_judges
+end module faststrip_lab_fuzz_checks
