@@ -195,7 +195,7 @@ def failed(status: int, codes: npt.NDArray[np.int32], what: str) -> npt.NDArray[
 
 
 def looked_up(function: Any, table: Handle, order: str, jacobian: bool, shape: Tuple[int, ...],
-              states: Array, *slots: Array) -> LookedUp:
+              states: Array, *slots: Any) -> LookedUp:
     """Forces in the shape of the states; nan where there are none. Raises if all failed."""
     number = order_number(order)
     n, n_state = states.shape
