@@ -42,9 +42,11 @@ class Release(unittest.TestCase):
                 shutil.copy(ROOT / name, cls.folder / name)
         with open(cls.folder / "fpm.toml", "rb") as file:
             cls.version = tomllib.load(file)["version"]
-        changes = re.sub(r"## \[Unreleased\]\n(\n## \[[\d.]+\] - .*\n)?",
-                         f"## [Unreleased]\n\n## [{cls.version}] - {DATE}\n",
-                         (cls.folder / "CHANGELOG.md").read_text(encoding="utf-8"), count=1)
+        # What is not released yet becomes a part of the newest release.
+        changes = re.sub(r"## \[Unreleased\]\n(.*?\n)## \[[\d.]+\] - [^\n]*\n",
+                         rf"## [Unreleased]\n\n## [{cls.version}] - {DATE}\n\1",
+                         (cls.folder / "CHANGELOG.md").read_text(encoding="utf-8"), count=1,
+                         flags=re.DOTALL)
         cls.write("CHANGELOG.md", changes)
         citation = (cls.folder / "CITATION.cff").read_text(encoding="utf-8")
         citation = re.sub(r"date-released:.*\n", "", citation)

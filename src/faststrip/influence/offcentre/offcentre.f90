@@ -147,7 +147,7 @@ contains
         real(wp), intent(out) :: m(3)
 
         ! Longer strips are as long as this: `far` cannot overflow.
-        real(wp), parameter :: longest = huge(1.0_wp)/largest_size**3
+        real(wp), parameter :: longest = beyond_all**2
         real(wp) :: near, far
 
         ! From so far away a strip is a point; an edge as many times farther still sees it, and all

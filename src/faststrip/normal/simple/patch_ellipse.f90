@@ -2,7 +2,7 @@
 module faststrip_normal_simple_patch_ellipse
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: largest_ratio, largest_size, nothing
+    use faststrip_base_limits, only: largest_ratio, nothing
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range
     use faststrip_normal_strips, only: contact_strips_t, strip_load
@@ -19,6 +19,10 @@ module faststrip_normal_simple_patch_ellipse
         real(wp) :: load = 0.0_wp !! load of the patch, N; zero: nothing to solve
     end type patch_ellipse_t
 
+    ! Strips are refused beyond this.
+    ! Tuned [mm, MPa]. Origin: safeguard: loads and moduli in other units do not pass for a contact.
+    real(wp), parameter :: largest = 1.0e9_wp
+
 contains
 
     !> Refuse strips that no normal solution can have given.
@@ -26,7 +30,7 @@ contains
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(status_t), intent(out) :: status
             !! `st_bad_argument` (no strips; negative width, length or pressure), `st_not_finite`,
-            !! `st_out_of_range` (above 1e30 mm or MPa)
+            !! `st_out_of_range` (above 1e9 mm or MPa)
 
         integer :: i
 
@@ -43,7 +47,7 @@ contains
                 return
             end if
             if (max(abs(strips%y_left(i)), abs(strips%y_right(i)), strips%half_length(i), &
-                    strips%p0(i)) > largest_size) then
+                    strips%p0(i)) > largest) then
                 call set_status(status, st_out_of_range, 'a strip beyond all proportion at y = ' &
                                 // trim(number_text(strips%y_left(i))) // ' mm')
                 return
