@@ -58,7 +58,8 @@ contains
             p = p + g
             g = mean
             mean = mean + geometric
-            if (abs(g - geometric) <= close_enough*g) exit
+            ! Also where numbers near the largest there are have overflowed.
+            if (.not. abs(g - geometric) > close_enough*g) exit
             geometric = 2.0_wp*sqrt(product)
             product = geometric*mean
         end do

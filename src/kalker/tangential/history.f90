@@ -13,7 +13,7 @@
 module faststrip_kalker_tangential_history
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: largest_ratio, largest_size, half_digits
+    use faststrip_base_limits, only: largest_ratio, largest_size
     use faststrip_base_status, only: status_t, set_status, clear_status, st_bad_argument, &
                                      st_not_finite, st_out_of_range
     use faststrip_kalker_grid, only: contact_grid_t
@@ -34,6 +34,10 @@ module faststrip_kalker_tangential_history
         real(wp), allocatable :: pressure(:, :) !! MPa, shape (nx, ny)
         real(wp), allocatable :: px(:, :), py(:, :) !! tractions on the rail, MPa, shape (nx, ny)
     end type tang_history_t
+
+    ! Tuned [elements]: How far from a middle of the grid a middle of the step before may be.
+    ! Origin: safeguard: places of seven digits pass.
+    real(wp), parameter :: off_lattice = 1.0e-6_wp
 
 contains
 
@@ -92,7 +96,7 @@ contains
                             'a place, a pressure or a traction of the step before is not finite')
         else if (any(abs(ends) > largest_ratio)) then
             call set_status(status, st_out_of_range, 'the step before is beyond all proportion')
-        else if (any(abs(ends - anint(ends)) > half_digits) .or. &
+        else if (any(abs(ends - anint(ends)) > off_lattice) .or. &
                  any(nint(ends(3:) - ends(:2)) /= [history%nx, history%ny] - 1)) then
             call set_status(status, st_bad_argument, &
                             'the step before must have its elements on the lattice of the grid')

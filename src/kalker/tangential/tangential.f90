@@ -21,7 +21,7 @@
 module faststrip_kalker_tangential
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_steps, smallest_size
+    use faststrip_base_limits, only: most_steps, smallest_size, equal_within
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_convergence, st_not_finite
     use faststrip_base_material, only: material_t
@@ -355,9 +355,9 @@ contains
         else if (.not. ieee_is_finite(options%tolerance)) then
             call set_status(status, st_not_finite, 'the tolerance must be a finite number, ' &
                             // 'got ' // number_text(options%tolerance))
-        else if (options%tolerance <= 0.0_wp .or. options%tolerance >= 1.0_wp) then
-            call set_status(status, st_bad_argument, 'the tolerance must be between 0 and 1, ' // &
-                            'got ' // number_text(options%tolerance))
+        else if (options%tolerance < equal_within .or. options%tolerance >= 1.0_wp) then
+            call set_status(status, st_bad_argument, 'the tolerance must be at least ' // &
+                            '1e-12 and below 1, got ' // number_text(options%tolerance))
         else if (options%max_steps < 1 .or. options%most_elements < 1) then
             call set_status(status, st_bad_argument, 'no steps or no elements are allowed')
         end if
