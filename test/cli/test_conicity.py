@@ -161,6 +161,12 @@ class Profiles(ProgramTest):
         self.conicity("--functions", "f.csv", "-o", "out.csv", *words, **case)
         return self.read("f.csv")
 
+    def test_cones_are_their_own_conicity(self):
+        for row in self.conicity("--to", "3"):
+            self.assertEqual(row["status"], "ok")
+            self.assert_close(float(row["tan_gamma_e"]), 0.05, 1e-9, what=row)
+            self.assert_close(float(row["regression"]), 0.05, 1e-9, what=row)
+
     def test_a_wheel_that_falls_to_its_flange_leaves_the_middle(self):
         """Slope -1:50 on the tread: the conicity is -0.02, and the flange's is not told for it."""
         wheel = [(y, -3 * (y + 38) - 0.76 if y < -38 else 0.02 * y) for y in range(-46, 51, 2)]

@@ -30,6 +30,15 @@ class Integral(ProgramTest):
         self.check(rows, results, "value", 1e-12)
         self.assertEqual([float(row["X"]) for row in results], [float(row["X"]) for row in rows])
 
+    def test_quadrature_of_a_file(self):
+        rows = [row for row in reference("reference_offcenter.csv")
+                if 1e-3 <= float(row["b"]) <= 1e3 and int(row["n"]) <= 100][::6]
+        self.write("points.csv", "n,b,X\n" + "".join(
+            f"{row['n']},{row['b']},{row['X']}\n" for row in rows))
+        results = self.good("integral", "--input", "points.csv", "--method", "quadrature")
+        self.check(rows, results, "value", 1e-9)
+        self.assertEqual({row["method"] for row in results}, {"quadrature"})
+
     def test_every_method_is_the_one_of_its_name(self):
         """The same but for rounding, and within its fit the table."""
         for n, b in ((0, 0.01), (0, 1.0), (3, 0.2), (20, 5.0)):

@@ -178,6 +178,7 @@ class Settings(ProgramTest):
                                 ("0", "above 0" in words or "whole" in words and " or " not in
                                  words), ("0.5", "below 0.5" in words),
                                 ("1.5", "most 1" in words or "to 1" in words or "whole" in words),
+                                ("-3", "whole" in words), ("1001", re.search(r"to 1000\b", words)),
                                 ("99999999", "to 1000" in words or "to 2000" in words),
                                 ("-0.0", "number above 0" in words), ("nan", "number" in words),
                                 ("inf", "number" in words and "whole" not in words),
@@ -206,8 +207,9 @@ class Settings(ProgramTest):
                     if words.split()[:1] == [row["name"]])
         self.refused_and_untouched("contact", "case.nml", says=[
             f"&{group} {row['name']} must be ", f"(case.nml:{line})",
-            bad if "whole" in row["may_be"] else
-            {"nan": "NaN", "inf": "Inf", "-0.0": "0.0"}.get(bad, bad)])
+            "got 0" if bad == "0" else bad if "whole" in row["may_be"] else
+            {"nan": "NaN", "inf": "Inf", "-0.0": "0.0"}.get(bad, bad),
+            "must be at least 0 and below 0.5" if bad == "0.5" else "must be "])
         self.write("case.nml", profile_case())
 
     def test_text_is_read_as_it_stands(self):

@@ -272,6 +272,8 @@ class Wheelset(ProgramTest):
             plain = abs(float(row["Fx_N"]) * float(row["cksi"])) \
                 + abs(float(row["Fs_N"]) * float(row["ceta"]))
             self.assert_close(float(row["t_gamma_N"]), plain, 1.0e-12)
+            self.assert_close(float(row["t_gamma_per_area_N_per_mm2"]),
+                              plain / float(row["area_mm2"]), 1.0e-12)
             spin = abs(float(row["Mz_Nmm"]) * float(row["cphi_rad_per_mm"]))
             self.assert_close(float(row["t_gamma_spin_N"]), plain + spin, 1.0e-12)
             used = math.hypot(float(row["Fx_N"]), float(row["Fs_N"])) / float(row["N_N"])

@@ -158,8 +158,8 @@ class HostTest(unittest.TestCase):
 
     def all_refused(self, *rows):
         """Rows of words and a call of the Python package, which fails with these words."""
-        for says, call in rows:
-            with self.subTest(says):
+        for i, (says, call) in enumerate(rows):
+            with self.subTest(says, row=i):
                 with self.assertRaises(sys.modules["faststrip"].FaststripError) as caught:
                     call()
                 self.assertIn(says, str(caught.exception))
