@@ -51,10 +51,9 @@ module faststrip_influence_closed
     real(wp), parameter :: log_4 = 1.386294361119890618834464242916353136_wp
 
     integer :: k_
-    !> The largest n of the tables of logarithms, as many strips as a patch seldom has: beyond, few
-    !> terms in powers of 1/(4n^2) serve. Columns on the centre line are taken in parts as long.
-    !> Tuned [strips]. Origin: chosen: from 16 on five powers are exact; columns of 61 to 201 points
-    !> in parts take 1.01 to 1.03 times as long at half, 0.98 to 1.0 at double.
+    !> The largest n of the tables of logarithms: beyond, few terms in powers of 1/(4n^2) serve.
+    !> Tuned [strips]. Origin: chosen: as many as a patch seldom has; from 16 on five powers are
+    !> exact.
     integer, parameter :: table_end = 64
     ! 2n atanh(1/(2n)), and the coefficients of its powers.
     real(wp), parameter :: distance_table(table_end) = &
