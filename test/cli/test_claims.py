@@ -101,8 +101,8 @@ class Claims(LabTest):
     def test_kalker_comes_near_the_reference(self):
         reference = self.reference("--each", 1)
         rows = self.judge(reference, "both,fine,always,norm,tang,,,,,16,,\n"
-                                 "both,coarse,always,norm,tang,,,,,6,,\n"
-                                 "both,strips,always,strip,faststrip,15,15,,,,,\n")
+                                     "both,coarse,always,norm,tang,,,,,6,,\n"
+                                     "both,strips,always,strip,faststrip,15,15,,,,,\n")
         self.assertEqual([row["method"] for row in rows],
                          [name for name in ("fine", "coarse", "strips")
                           for _ in rows_of(reference)])
@@ -122,7 +122,7 @@ class Claims(LabTest):
     def test_the_program_says_the_same_of_these_contacts(self):
         reference = self.reference("--each", 1)
         judged = self.judge(reference, "both,strips,always,strip,faststrip,11,9,,,,,\n"
-                             "both,auto,always,auto,faststrip,,,,,,penetration,0.1\n", "--every", 3)
+                            "both,auto,always,auto,faststrip,,,,,,penetration,0.1\n", "--every", 3)
         (self.folder / "cases").mkdir()
         done = self.run_program("claims", "--references", "references.csv", "--every", 3, "--cases",
                                 "cases")

@@ -24,7 +24,7 @@ class Claims(unittest.TestCase):
 
     def judged(self):
         return claims.Judged(*(str(self.folder / f"{name}.csv")
-                                 for name in ("results", "references", "methods")))
+                               for name in ("results", "references", "methods")))
 
     def run_tool(self, name, *words):
         return subprocess.run([sys.executable, str(ROOT / name), *words], cwd=self.folder,
