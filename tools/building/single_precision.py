@@ -52,8 +52,8 @@ def build(folder, kinds, flags, renamed):
             run("objcopy", *(f"--redefine-sym=d{name}_=s{name}_" for name in LAPACK), target)
         objects.append(target)
         if in_c.exists():
-            # Its loops for x86-64 are in double precision; elsewhere it has none.
-            flag = ["-U__x86_64__"] if renamed else []
+            # Its loops are in double precision.
+            flag = ["-DFASTSTRIP_NO_LANES"] if renamed else []
             objects.append(target.with_suffix(".c.o"))
             run("gcc", *flag, "-c", in_c, "-o", objects[-1])
     run("gfortran", *objects, "-o", folder / "kernels", "-lopenblas")

@@ -5,6 +5,7 @@ module faststrip_influence_closed_coefficients
     private
 
     public :: a_small, b_small, r_large, r_centre, atanh_series, atanh_last
+    public :: atanh_column, column_last
     public :: a_short, b_short, r_short, short_last
 
     !> Centre of the powers of `r_large`.
@@ -156,4 +157,26 @@ module faststrip_influence_closed_coefficients
         1.3903893422984654179e+0_wp, &
         -1.3814928054587791509e+0_wp, &
         7.5726119220837331495e-1_wp]
+
+    !> Largest argument of `atanh_column`.
+    real(wp), parameter :: column_last = 0.775_wp
+
+    !> The same to 1e-11, |z| <= column_last.
+    real(wp), parameter :: atanh_column(0:15) = [ &
+        9.9999999999821857483e-1_wp, &
+        3.3333333485018937564e-1_wp, &
+        1.9999978655083882348e-1_wp, &
+        1.4286896002125693508e-1_wp, &
+        1.1076932136925375136e-1_wp, &
+        9.6852287819648973825e-2_wp, &
+        9.5406155967212760088e-3_wp, &
+        5.9034238725429680596e-1_wp, &
+        -2.8179490471825893105e+0_wp, &
+        1.1412452902547913509e+1_wp, &
+        -3.2356881358121037499e+1_wp, &
+        6.6327834566849113019e+1_wp, &
+        -9.4957212049923842320e+1_wp, &
+        9.0881413847746488629e+1_wp, &
+        -5.2287958143355170938e+1_wp, &
+        1.3905008711574754420e+1_wp]
 end module faststrip_influence_closed_coefficients

@@ -1,130 +1,86 @@
-!> Sums of the influence columns with four numbers side by side: what four_lanes.c has for
-!> processors with AVX2 and FMA.
+!> Influence columns with numbers side by side: what four_lanes.c has, four for processors with AVX2
+!> and FMA, two for any.
 !>
-!> A processor is asked by `are_lanes_wanted`; where it says no, nothing else of here may be called.
-!> The loops in Fortran beside each call serve everywhere. Results agree with theirs to 1e-15, as
-!> far as the arguments' own rounding lets them: off the centre line, at c half-lengths from an
-!> edge, to 1e-15 (1 + 1/sqrt(c)), and derivatives to 1e-15 (1 + 1/c). They depend neither on how
-!> many points are in a call nor on their order.
+!> Results of both agree as far as the arguments' own rounding lets them: on the centre line to
+!> 1e-15 (1 + c/w), w the strip's width and c the distance of its farther edge; off it, at c
+!> half-lengths from an edge, to 1e-15 (1 + 1/sqrt(c)), and derivatives to 1e-15 (1 + 1/c). They
+!> depend neither on how many points are in a call nor on their order.
+!>
+!> Columns say how far they got: 1, all points; 0, without some that have the value 0; -1, without
+!> all, and nothing is set: the strip is larger than `largest` or no number.
 module faststrip_influence_four_lanes
     use, intrinsic :: iso_c_binding, only: c_double, c_int
     implicit none
     private
 
-    public :: are_lanes_wanted, lanes
-    public :: near_center_lanes, near_center_value_lanes, far_center_lanes, far_center_value_lanes
-    public :: far_rule_lanes, near_rule_lanes
-
-    !> Arrays of the centre lines are read and written up to the next multiple.
-    !> Given: doubles in a register of 256 bits.
-    integer, parameter :: lanes = 4
+    public :: lanes_for, center_lanes, off_center_lanes
 
     interface
-        ! 1 if this processor has AVX2 and FMA.
-        pure integer(c_int) function ask_processor() bind(C, name='influence_has_four_lanes')
+        ! 4 if this processor has AVX2 and FMA, else 2; 0 if the compiler has no vectors.
+        pure integer(c_int) function ask_processor() bind(C, name='influence_lanes')
             import
         end function ask_processor
 
-        !> As near_center of faststrip_influence_center_column.
-        pure subroutine near_center_lanes(n, least_ratio, width, cl, cr, a, b, value, slope) &
-            bind(C, name='influence_near_center')
+        !> Points of a centre line, by G(c) on both sides of c = 1.
+        pure subroutine center_lanes(by, n, largest, half_length, y_left, y_right, y, small, &
+                                     large, middle, value, slope, found) &
+            bind(C, name='influence_center')
             import
+            integer(c_int), intent(in), value :: by          !! lanes: 4 or 2
             integer(c_int), intent(in), value :: n           !! field points
-            real(c_double), intent(in), value :: least_ratio !! of the edges' distances
-            real(c_double), intent(in) :: width(*)           !! between the edges
-            real(c_double), intent(in) :: cl(*)              !! distance of the nearer edge
-            real(c_double), intent(in) :: cr(*)              !! distance of the farther edge
-            real(c_double), intent(in) :: a(0:19)            !! coefficients
-            real(c_double), intent(in) :: b(0:20)            !! the same
-            real(c_double), intent(inout) :: value(*)        !! the form's value
-            real(c_double), intent(inout) :: slope(*)        !! its derivative
-        end subroutine near_center_lanes
+            real(c_double), intent(in), value :: largest     !! place, mm
+            real(c_double), intent(in), value :: half_length !! of the strip, mm
+            real(c_double), intent(in), value :: y_left      !! its left edge, mm
+            real(c_double), intent(in), value :: y_right     !! its right edge, mm
+            real(c_double), intent(in) :: y(*)               !! the field points, mm
+            real(c_double), intent(in) :: small(4, 0:20)     !! powers of c^2: A, B of G, G - c G'
+            real(c_double), intent(in) :: large(2, 0:26)     !! of 1/c^2 - middle: R of the same
+            real(c_double), intent(in), value :: middle      !! of these powers
+            real(c_double), intent(inout) :: value(*)        !! influence, mm
+            real(c_double), intent(inout), optional :: slope(*) !! its derivative in the half-length
+            integer(c_int), intent(inout) :: found           !! how far it got
+        end subroutine center_lanes
 
-        !> The value alone.
-        pure subroutine near_center_value_lanes(n, least_ratio, width, cl, cr, a, b, value) &
-            bind(C, name='influence_near_center_value')
+        !> Points off a centre line, by the rules of faststrip_influence_angle_rules; those that no
+        !> rule serves have the value 0.
+        pure subroutine off_center_lanes(by, n, largest, half_length, y_left, y_right, x, y, &
+                                         size, limit, nodes, node, form, atanh, own, value, d_x, &
+                                         d_half_length, found) &
+            bind(C, name='influence_off_center')
             import
+            integer(c_int), intent(in), value :: by          !! lanes: 4 or 2
             integer(c_int), intent(in), value :: n           !! field points
-            real(c_double), intent(in), value :: least_ratio !! of the edges' distances
-            real(c_double), intent(in) :: width(*)           !! between the edges
-            real(c_double), intent(in) :: cl(*)              !! distance of the nearer edge
-            real(c_double), intent(in) :: cr(*)              !! distance of the farther edge
-            real(c_double), intent(in) :: a(0:19)            !! coefficients
-            real(c_double), intent(in) :: b(0:20)            !! the same
-            real(c_double), intent(inout) :: value(*)        !! the form's value
-        end subroutine near_center_value_lanes
-
-        !> As far_center of faststrip_influence_center_column.
-        pure subroutine far_center_lanes(n, half_pi, centre, width, cl, cr, r, value, slope) &
-            bind(C, name='influence_far_center')
-            import
-            integer(c_int), intent(in), value :: n       !! field points
-            real(c_double), intent(in), value :: half_pi !! pi/2
-            real(c_double), intent(in), value :: centre  !! of the coefficients' powers
-            real(c_double), intent(in) :: width(*)       !! between the edges
-            real(c_double), intent(in) :: cl(*)          !! distance of the nearer edge
-            real(c_double), intent(in) :: cr(*)          !! distance of the farther edge
-            real(c_double), intent(in) :: r(0:26)        !! coefficients
-            real(c_double), intent(inout) :: value(*)    !! the form's value
-            real(c_double), intent(inout) :: slope(*)    !! its derivative
-        end subroutine far_center_lanes
-
-        !> The value alone.
-        pure subroutine far_center_value_lanes(n, half_pi, centre, width, cl, cr, r, value) &
-            bind(C, name='influence_far_center_value')
-            import
-            integer(c_int), intent(in), value :: n       !! field points
-            real(c_double), intent(in), value :: half_pi !! pi/2
-            real(c_double), intent(in), value :: centre  !! of the coefficients' powers
-            real(c_double), intent(in) :: width(*)       !! between the edges
-            real(c_double), intent(in) :: cl(*)          !! distance of the nearer edge
-            real(c_double), intent(in) :: cr(*)          !! distance of the farther edge
-            real(c_double), intent(in) :: r(0:26)        !! coefficients
-            real(c_double), intent(inout) :: value(*)    !! the form's value
-        end subroutine far_center_value_lanes
-
-        !> As far_sums of faststrip_influence_angle_sums.
-        pure subroutine far_rule_lanes(last, n, u, x, cl, cr, c, s) &
-            bind(C, name='influence_far_rule')
-            import
-            integer(c_int), intent(in), value :: last  !! of the kernel's powers: 4, 8, 12, 15, 16
-            integer(c_int), intent(in), value :: n     !! nodes, even
-            real(c_double), intent(in) :: u(n)         !! the nodes
-            real(c_double), intent(in), value :: x     !! field point along the strip
-            real(c_double), intent(in), value :: cl    !! the nearer edge less the field point's y
-            real(c_double), intent(in), value :: cr    !! the farther edge less the field point's y
-            real(c_double), intent(in) :: c(0:last)    !! of the kernel; of any width if last = 15
-            real(c_double), intent(inout) :: s(3)      !! the sums, before their factor
-        end subroutine far_rule_lanes
-
-        !> As near_sums of faststrip_influence_angle_sums.
-        pure subroutine near_rule_lanes(last, n, p, q, dp, dq, x, cl, cr, c, s) &
-            bind(C, name='influence_near_rule')
-            import
-            integer(c_int), intent(in), value :: last  !! of the kernel's powers: 4, 8, 12, 15, 16
-            integer(c_int), intent(in), value :: n     !! nodes, even
-            real(c_double), intent(in) :: p(n)         !! the nodes: one_cosh
-            real(c_double), intent(in) :: q(n)         !! one_sinh
-            real(c_double), intent(in) :: dp(n)        !! d_cosh
-            real(c_double), intent(in) :: dq(n)        !! d_sinh
-            real(c_double), intent(in), value :: x     !! field point along the strip
-            real(c_double), intent(in), value :: cl    !! the nearer edge less the field point's y
-            real(c_double), intent(in), value :: cr    !! the farther edge less the field point's y
-            real(c_double), intent(in) :: c(0:last)    !! of the kernel; of any width if last = 15
-            real(c_double), intent(inout) :: s(3)      !! the sums, before their factor
-        end subroutine near_rule_lanes
+            real(c_double), intent(in), value :: largest     !! place, mm
+            real(c_double), intent(in), value :: half_length !! of the strip, mm
+            real(c_double), intent(in), value :: y_left      !! its left edge, mm
+            real(c_double), intent(in), value :: y_right     !! its right edge, mm
+            real(c_double), intent(in) :: x(*)               !! the field points along, mm
+            real(c_double), intent(in) :: y(*)               !! the field points across, mm
+            integer(c_int), intent(in) :: size(9, 2)         !! column_size
+            real(c_double), intent(in) :: limit(*)           !! column_limit from the accuracy on
+            integer(c_int), intent(in), value :: nodes       !! n_column_nodes
+            real(c_double), intent(in) :: node(*)            !! column_node from the accuracy on
+            real(c_double), intent(in) :: form(4) !! narrowness of a thin strip and of any, largest
+                                                  !! X, largest half-width of the own tip's series
+            real(c_double), intent(in) :: atanh(0:15)        !! 2 atanh(z)/z, powers of z^2
+            real(c_double), intent(in) :: own(2, 0:19)       !! the own tip's series: I, slope
+            real(c_double), intent(inout) :: value(*)        !! influence, mm
+            real(c_double), intent(inout) :: d_x(*)          !! its derivative in x
+            real(c_double), intent(inout) :: d_half_length(*) !! and in the half-length
+            integer(c_int), intent(inout) :: found           !! how far it got
+        end subroutine off_center_lanes
     end interface
 
 contains
 
-    !> Has this processor what the others here need, and may it be used?
-    pure logical function are_lanes_wanted(portable)
+    !> So many numbers side by side: 4, 2, or 0 for none; then no other procedure of here may be
+    !> called.
+    pure integer(c_int) function lanes_for(portable)
         logical, intent(in), optional :: portable !! by what any processor has; default: if need be
 
-        are_lanes_wanted = .false.
+        lanes_for = ask_processor()
         if (present(portable)) then
-            if (portable) return
+            if (portable) lanes_for = min(2_c_int, lanes_for)
         end if
-        are_lanes_wanted = ask_processor() /= 0
-    end function are_lanes_wanted
+    end function lanes_for
 end module faststrip_influence_four_lanes

@@ -5,8 +5,7 @@
 module faststrip_influence_offcentre_column
     use faststrip_base_kinds, only: wp
     use faststrip_influence_angle_rules, only: fine
-    use faststrip_influence_angle_sums, only: angle_moments
-    use faststrip_influence_four_lanes, only: are_lanes_wanted
+    use faststrip_influence_angle_sums, only: angle_column
     use faststrip_influence_offcentre, only: strip_influence_at, strip_influence_gradient
     use faststrip_influence_plain_sizes, only: is_plain
     implicit none
@@ -23,7 +22,7 @@ contains
         real(wp), intent(in) :: y_right     !! its right edge, mm
         real(wp), intent(in) :: x(:)        !! field points along the strip, (n), mm
         real(wp), intent(in) :: y(:)        !! field points across, (n), mm
-        real(wp), intent(out) :: value(:)   !! influence I, (n), mm
+        real(wp), intent(out) :: value(:)         !! influence I, (n), mm
 
         real(wp) :: d_x, d_half_length
         integer :: k
@@ -56,35 +55,15 @@ contains
         real(wp), intent(out) :: d_half_length(:) !! dI/dxd, (n)
         logical, intent(in), optional :: portable !! by what any processor has; default: if need be
 
-        real(wp) :: per_length, xs, cl, cr, m(3)
-        integer :: k
-        logical :: plain, found, by_lanes
+        integer :: found, k
 
-        plain = is_plain(half_length, abs(y_left)) .and. is_plain(1.0_wp, abs(y_right))
-        per_length = 0.0_wp
-        if (plain) per_length = 1.0_wp/half_length
-        by_lanes = are_lanes_wanted(portable)
+        call angle_column(fine, half_length, y_left, y_right, x, y, value, d_x, d_half_length, &
+                          portable, found)
+        if (found == 1) return
         do k = 1, size(y)
-            found = .false.
-            if (plain .and. is_plain(1.0_wp, abs(x(k))) .and. is_plain(1.0_wp, abs(y(k)))) then
-                xs = abs(x(k))*per_length
-                cl = (y_left - y(k))*per_length
-                cr = (y_right - y(k))*per_length
-                if (cl + cr < 0.0_wp) then
-                    m(1) = -cl
-                    cl = -cr
-                    cr = m(1)
-                end if
-                if (xs > 0.0_wp) call angle_moments(fine, by_lanes, xs, cl, cr, m, found)
-            end if
-            if (found) then
-                value(k) = half_length*m(1)
-                d_x(k) = sign(1.0_wp, x(k))*m(2)
-                d_half_length(k) = m(3)
-            else
-                call strip_influence_gradient(x(k), half_length, y_left - y(k), y_right - y(k), &
-                                              value(k), d_x(k), d_half_length(k))
-            end if
+            if (value(k) > 0.0_wp) cycle
+            call strip_influence_gradient(x(k), half_length, y_left - y(k), y_right - y(k), &
+                                          value(k), d_x(k), d_half_length(k))
         end do
     end subroutine influence_column_gradient
 end module faststrip_influence_offcentre_column

@@ -2,10 +2,9 @@
 module faststrip_influence_offcentre_near
     use faststrip_base_kinds, only: wp, pi
     use faststrip_numerics_logarithm, only: log_1p
-    use faststrip_influence_angle_rules, only: cosine, sine
+    use faststrip_influence_angle_rules, only: cosine, sine, rule_size, rule_start
     use faststrip_influence_closed_coefficients, only: a => atanh_series, atanh_last
-    use faststrip_influence_offcentre_rules, only: accuracy_t, interval, least_near_rule, &
-                                                   scalar_size, scalar_start
+    use faststrip_influence_offcentre_rules, only: accuracy_t, interval, least_near_rule
     implicit none
     private
 
@@ -25,11 +24,11 @@ contains
         call interval(x, c, mid, half)
         rule = least_near_rule(half, accuracy)
         if (cr - cl <= atanh_last*(max(cr, x - 1.0_wp) + max(cl, x - 1.0_wp))) then
-            call narrow_near_sums(scalar_size(rule), cosine(scalar_start(rule)), &
-                                  sine(scalar_start(rule)), x, cl, cr, c, mid, half, m)
+            call narrow_near_sums(rule_size(rule), cosine(rule_start(rule)), &
+                                  sine(rule_start(rule)), x, cl, cr, c, mid, half, m)
         else
-            call near_sums(scalar_size(rule), cosine(scalar_start(rule)), &
-                           sine(scalar_start(rule)), x, cl, cr, c, mid, half, m)
+            call near_sums(rule_size(rule), cosine(rule_start(rule)), &
+                           sine(rule_start(rule)), x, cl, cr, c, mid, half, m)
         end if
     end subroutine near_moments
 
@@ -116,8 +115,8 @@ contains
         call interval(x, c, mid, half)
         ! The nearest singularities are twice as far as those of a kernel with two edges.
         rule = least_near_rule(0.5_wp*half, accuracy)
-        call smooth_near_sums(scalar_size(rule), cosine(scalar_start(rule)), &
-                              sine(scalar_start(rule)), x, c, mid, half, m)
+        call smooth_near_sums(rule_size(rule), cosine(rule_start(rule)), &
+                              sine(rule_start(rule)), x, c, mid, half, m)
     end subroutine smooth_near_moments
 
     !> The sums of the rule.

@@ -33,9 +33,9 @@ module faststrip_influence_offcentre
     use faststrip_base_limits, only: nothing, smallest_size, largest_size, beyond_all
     use faststrip_influence_closed, only: strip_influence_edges, strip_influence_center_gradient
     use faststrip_influence_closed_coefficients, only: atanh_last
-    use faststrip_influence_angle_rules, only: cosine
+    use faststrip_influence_angle_rules, only: cosine, rule_size, rule_start
     use faststrip_influence_offcentre_rules, only: accuracy_t, for_value, for_gradient, &
-                                                   least_far_rule, scalar_size, scalar_start
+                                                   least_far_rule
     use faststrip_influence_offcentre_far, only: far_moments, narrow_far_moments, &
                                                  smooth_far_moments
     use faststrip_influence_offcentre_near, only: near_moments, smooth_near_moments
@@ -215,9 +215,9 @@ contains
         rule = least_far_rule(sigma, accuracy)
         if (rule <= accuracy%last_far) then
             if (cr - cl <= atanh_last*(max(cr, x - 1.0_wp) + max(cl, x - 1.0_wp))) then
-                call narrow_far_moments(scalar_size(rule), cosine(scalar_start(rule)), x, cl, cr, m)
+                call narrow_far_moments(rule_size(rule), cosine(rule_start(rule)), x, cl, cr, m)
             else
-                call far_moments(scalar_size(rule), cosine(scalar_start(rule)), x, cl, cr, m)
+                call far_moments(rule_size(rule), cosine(rule_start(rule)), x, cl, cr, m)
             end if
         else if (cr <= accuracy%thin*(1.0_wp - x) .and. cr <= accuracy%loss*(cr - cl)) then
             call series_moments(x, cl, cr, accuracy%tail, m)
@@ -227,7 +227,7 @@ contains
             sigma = 0.5_wp*(sqrt((x - 1.0_wp)**2 + cr*cr) + sqrt((x + 1.0_wp)**2 + cr*cr))
             rule = least_far_rule(sigma, accuracy)
             if (rule <= accuracy%last_far) then
-                call smooth_far_moments(scalar_size(rule), cosine(scalar_start(rule)), x, cr, m)
+                call smooth_far_moments(rule_size(rule), cosine(rule_start(rule)), x, cr, m)
             else
                 call smooth_near_moments(x, cr, accuracy, m)
             end if

@@ -1,33 +1,16 @@
 !> Which rule the scalar procedures off the centre line take, for a value or for derivatives.
 module faststrip_influence_offcentre_rules
     use faststrip_base_kinds, only: wp
-    use faststrip_influence_angle_rules, only: exact, fine, far_limit, half_t, rule_size, &
-                                               rule_start
+    use faststrip_influence_angle_rules, only: exact, fine, far_limit, half_t, n_rules
     implicit none
     private
 
     public :: accuracy_t, for_value, for_gradient, least_far_rule, least_near_rule, interval
-    public :: scalar_size, scalar_start
-
-    ! Fewer sizes than the columns have, for choosing one costs as much as some nodes: 4, 6, 8, 12,
-    ! 16, 20, 24, 32, 48, 64, 96, 128, 192.
-    ! Tuned [rules' numbers]. Origin: chosen for the time: with every other of them scalar numbers
-    ! take 1.13 times as long, with all 21 sizes 1.01 (values) to 1.05 (derivatives); errors stay.
-    integer, parameter :: choice(*) = [1, 2, 3, 5, 7, 9, 11, 13, 16, 18, 19, 20, 21]
-    integer, parameter :: n_scalar_rules = size(choice)
-    !> Nodes of each rule.
-    integer, parameter :: scalar_size(n_scalar_rules) = rule_size(choice)
-    !> The place of its first node in the tables of faststrip_influence_angle_rules.
-    integer, parameter :: scalar_start(n_scalar_rules) = rule_start(choice)
-    real(wp), parameter :: value_far(n_scalar_rules) = far_limit(choice, exact)
-    real(wp), parameter :: gradient_far(n_scalar_rules) = far_limit(choice, fine)
-    real(wp), parameter :: value_near(n_scalar_rules) = half_t(choice, exact)
-    real(wp), parameter :: gradient_near(n_scalar_rules) = half_t(choice, fine)
 
     !> Limits of the rules and forms that meet one accuracy.
     type :: accuracy_t
-        real(wp) :: far(n_scalar_rules)  !! least sigma of each far rule
-        real(wp) :: near(n_scalar_rules) !! largest half interval of each near rule
+        real(wp) :: far(n_rules)  !! least sigma of each far rule
+        real(wp) :: near(n_rules) !! largest half interval of each near rule
         integer :: last_far       !! largest far rule worth its price
         real(wp) :: thin          !! largest cr/(1 - |X|) of the series
         real(wp) :: tail          !! of the series, where it may be cut
@@ -39,23 +22,22 @@ module faststrip_influence_offcentre_rules
     ! values, 3e-16 (95 %; largest 2e-15); the order is that of accuracy_t. One at a time, at half
     ! and double: last_far takes 1.04 and 1.09 times as long, and at half errs by 4e-15; thin takes
     ! 1.08 and 0.94; tail and split change nothing; loss errs by 1e-15 and 6e-15.
-    type(accuracy_t), parameter :: for_value = accuracy_t(value_far, value_near, 9, 0.1_wp, &
-                                                          1.0e-16_wp, 20.0_wp, 0.5_wp)
+    type(accuracy_t), parameter :: for_value = accuracy_t( &
+        far_limit(:, exact), half_t(:, exact), 9, 0.1_wp, 1.0e-16_wp, 20.0_wp, 0.5_wp)
     ! Tuned [several]: Limits of the forms for derivatives. Origin: the same for derivatives, errors
     ! 7e-12, of d_x 4e-11. last_far takes 1.08 and 1.2 times as long, and at half errs by 2e-9; thin
     ! takes 1.09 and 0.96; tail errs by 2e-12 and 1e-11; loss and split change nothing.
-    type(accuracy_t), parameter :: for_gradient = accuracy_t(gradient_far, gradient_near, 7, &
-                                                             0.2_wp, 1.0e-11_wp, 1.0e3_wp, &
-                                                             1.0e-3_wp)
+    type(accuracy_t), parameter :: for_gradient = accuracy_t( &
+        far_limit(:, fine), half_t(:, fine), 7, 0.2_wp, 1.0e-11_wp, 1.0e3_wp, 1.0e-3_wp)
 
 contains
 
-    !> The smallest trapezium rule in theta that is accurate enough; n_scalar_rules + 1 if none is.
+    !> The smallest trapezium rule in theta that is accurate enough; n_rules + 1 if none is.
     pure integer function least_far_rule(sigma, accuracy) result(rule)
         real(wp), intent(in) :: sigma
         type(accuracy_t), intent(in) :: accuracy
 
-        do rule = 1, n_scalar_rules
+        do rule = 1, n_rules
             if (sigma >= accuracy%far(rule)) exit
         end do
     end function least_far_rule
@@ -65,7 +47,7 @@ contains
         real(wp), intent(in) :: half
         type(accuracy_t), intent(in) :: accuracy
 
-        do rule = 1, n_scalar_rules - 1
+        do rule = 1, n_rules - 1
             if (half <= accuracy%near(rule)) exit
         end do
     end function least_near_rule

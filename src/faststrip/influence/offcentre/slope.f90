@@ -4,9 +4,9 @@ module faststrip_influence_offcentre_slope
                                              ieee_positive_inf
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_limits, only: beyond_all, smallest_size
-    use faststrip_influence_angle_rules, only: cosine, sine
+    use faststrip_influence_angle_rules, only: cosine, sine, rule_size, rule_start
     use faststrip_influence_offcentre_rules, only: for_value, interval, least_far_rule, &
-                                                   least_near_rule, scalar_size, scalar_start
+                                                   least_near_rule
     implicit none
     private
 
@@ -65,10 +65,10 @@ contains
         integer :: j
 
         slope = 0.0_wp
-        do j = scalar_start(rule), scalar_start(rule) + scalar_size(rule) - 1
+        do j = rule_start(rule), rule_start(rule) + rule_size(rule) - 1
             slope = slope + sine(j)**2/sqrt((cosine(j) - x)**2 + c*c)
         end do
-        slope = pi/scalar_size(rule)*slope
+        slope = pi/rule_size(rule)*slope
     end function far_slope
 
     !> The first term of the series in c, 0 <= X < 1.
@@ -97,10 +97,10 @@ contains
         call interval(x, c, mid, half)
         rule = least_near_rule(0.5_wp*half, for_value)
         slope = 0.0_wp
-        do j = scalar_start(rule), scalar_start(rule) + scalar_size(rule) - 1
+        do j = rule_start(rule), rule_start(rule) + rule_size(rule) - 1
             delta = c*sinh(mid + half*cosine(j))
             slope = slope + sine(j)*sqrt(max(0.0_wp, ((1.0_wp - x) - delta)*((1.0_wp + x) + delta)))
         end do
-        slope = pi/scalar_size(rule)*half*slope
+        slope = pi/rule_size(rule)*half*slope
     end function near_slope
 end module faststrip_influence_offcentre_slope
