@@ -23,7 +23,7 @@ module faststrip_influence_angle_rules
 
     public :: exact, fine, coarse, n_rules, rule_size, rule_start, cosine, sine
     public :: far_limit, half_t
-    public :: n_column_rules, n_column_nodes, column_size, column_limit, column_node
+    public :: column_size, column_limit, column_node
 
     integer :: i_, j_, k_
 
@@ -57,11 +57,11 @@ module faststrip_influence_angle_rules
 
     ! What the columns need besides, of H = half_t.
 
-    !> The columns have the rules up to 64 nodes whose nodes fill four lanes.
+    ! The columns have the rules up to 64 nodes whose nodes fill four lanes.
     integer, parameter :: n_column_rules = 9
     integer, parameter :: column_rule(n_column_rules) = [1, (k_, k_=3, n_column_rules + 1)]
     integer, parameter :: size_(n_column_rules) = rule_size(column_rule)
-    !> Nodes of all of them.
+    ! Nodes of all of them.
     integer, parameter :: n_column_nodes = sum(size_)
     !> Nodes of each, and nodes before them.
     integer, parameter :: column_size(n_column_rules, 2) = reshape( &

@@ -15,10 +15,10 @@
 !> the residues of the integral's Mellin transform.
 module faststrip_influence_angle_sums
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_influence_angle_rules, only: fine, coarse, n_column_nodes, column_size, &
-                                               column_limit, column_node
+    use faststrip_influence_angle_rules, only: fine, coarse, column_size, column_limit, &
+                                               column_node
     use faststrip_influence_closed_coefficients, only: atanh_column, column_last
-    use faststrip_influence_four_lanes, only: lanes_for, off_center_lanes
+    use faststrip_influence_four_lanes, only: lanes_for, column_t, off_center_lanes
     use faststrip_influence_offcentre_rules, only: for_gradient
     use faststrip_influence_plain_sizes, only: largest_plain
     implicit none
@@ -44,13 +44,14 @@ module faststrip_influence_angle_sums
     ! Largest narrowness, half-width over distance, of a kernel in nine powers; negative: not used.
     ! Tuned [1]. Origin: errors within the accuracy, see faststrip_influence_angle_rules.
     real(wp), parameter :: thin_last(fine:coarse) = [-1.0_wp, 0.2_wp]
-    ! The same, that of the other form, and the largest X and distance of an edge in half-lengths:
-    ! beyond, differences lose more than derivatives may, and scalar procedures less.
-    ! Last the own tip's largest half-width.
-    real(wp), parameter :: form(4, fine:coarse) = reshape( &
-        [thin_last(fine), column_last, for_gradient%loss, -1.0_wp, &
-         thin_last(coarse), column_last, for_gradient%loss, 2.0_wp*own_kappa], [4, 2])
-    real(wp), parameter :: twice_atanh(0:15) = 2.0_wp*atanh_column
+    ! What the lanes take of each accuracy: limits of the rules; the largest narrowness of both
+    ! forms; the largest X and distance of an edge in half-lengths: beyond, differences lose more
+    ! than derivatives may, and scalar procedures less; the own tip's largest half-width; series.
+    real(wp), parameter :: table(105, fine:coarse) = reshape( &
+        [column_limit(:, fine, :), thin_last(fine), column_last, for_gradient%loss, -1.0_wp, &
+         2.0_wp*atanh_column, own, &
+         column_limit(:, coarse, :), thin_last(coarse), column_last, for_gradient%loss, &
+         2.0_wp*own_kappa, 2.0_wp*atanh_column, own], [105, 2])
 
 contains
 
@@ -76,10 +77,9 @@ contains
         by = lanes_for(portable)
         found = -1
         if (by > 0) then
-            call off_center_lanes(by, size(y), largest_plain, half_length, y_left, y_right, x, y, &
-                                  column_size, column_limit(1, accuracy, 1), n_column_nodes, &
-                                  column_node(1, accuracy, 1), form(1, accuracy), twice_atanh, &
-                                  own, value, d_x, d_half_length, found)
+            call off_center_lanes(column_t(by, size(y), largest_plain, half_length, y_left, &
+                                           y_right), x, y, column_size, table(1, accuracy), &
+                                  column_node(1, accuracy, 1), value, d_x, d_half_length, found)
         end if
         if (found < 0) value = 0.0_wp
     end subroutine angle_column

@@ -24,7 +24,13 @@
 #include <immintrin.h>
 #endif
 
-/* Rules of an accuracy, nodes of the largest, and coefficients: as the Fortran side has them. */
+/* A strip, its field points and how many numbers stand side by side. */
+struct column {
+    int by, n;
+    double largest, length, left, right;
+};
+
+/* Rules of an accuracy, and last powers of G and of the own tip: as the Fortran side has them. */
 #define RULES 9
 #define SMALL 20
 #define LARGE 26
@@ -54,35 +60,30 @@ int influence_lanes(void)
     return 2;
 }
 
-void influence_center(int by, int n, double largest, double length, double left, double right,
-                      const double *y, const double *small, const double *large, double middle,
-                      double *value, double *slope, int *found)
+void influence_center(const struct column *of, const double *y, const double *small,
+                      const double *large, const double *middle, double *value, double *slope,
+                      int *found)
 {
 #ifdef __x86_64__
-    if (by == 4) {
-        *found = center_by_four(n, largest, length, left, right, y, small, large, middle, value,
-                                slope);
+    if (of->by == 4) {
+        *found = center_by_four(of, y, small, large, *middle, value, slope);
         return;
     }
 #endif
-    *found = center_by_two(n, largest, length, left, right, y, small, large, middle, value, slope);
+    *found = center_by_two(of, y, small, large, *middle, value, slope);
 }
 
-void influence_off_center(int by, int n, double largest, double length, double left,
-                          double right, const double *x, const double *y, const int *size,
-                          const double *limit, int nodes, const double *node, const double *form,
-                          const double *atanh, const double *own, double *value, double *d_x,
-                          double *d_length, int *found)
+void influence_off_center(const struct column *of, const double *x, const double *y,
+                          const int *size, const double *table, const double *node, double *value,
+                          double *d_x, double *d_length, int *found)
 {
 #ifdef __x86_64__
-    if (by == 4) {
-        *found = off_center_by_four(n, largest, length, left, right, x, y, size, limit, nodes,
-                                    node, form, atanh, own, value, d_x, d_length);
+    if (of->by == 4) {
+        *found = off_center_by_four(of, x, y, size, table, node, value, d_x, d_length);
         return;
     }
 #endif
-    *found = off_center_by_two(n, largest, length, left, right, x, y, size, limit, nodes, node,
-                               form, atanh, own, value, d_x, d_length);
+    *found = off_center_by_two(of, x, y, size, table, node, value, d_x, d_length);
 }
 
 #else
@@ -170,11 +171,12 @@ INSIDE lanes at(const double *x) { return *(const unaligned *)x; }
 /* Where are numbers, and no larger than that? Comparing NaN raises an exception. */
 INSIDE bits plain_where(lanes x, double largest) { return (bits)size_of(x) <= (bits)all(largest); }
 
-INSIDE int is_plain(double largest, double length, double left, double right)
+INSIDE int is_plain(const struct column *of)
 {
-    return !any(~(plain_where(all(length), largest) & plain_where(all(left), largest)
-                  & plain_where(all(right), largest)))
-           && length * largest >= 1.0;
+    return !any(~(plain_where(all(of->length), of->largest)
+                  & plain_where(all(of->left), of->largest)
+                  & plain_where(all(of->right), of->largest)))
+           && of->length * of->largest >= 1.0;
 }
 
 /* Where a column ends its last point once more. */
@@ -285,17 +287,17 @@ INSIDE void far_center(int rows, const lanes *c, const lanes *log_c, lanes ratio
 }
 
 #define center_points NAME(center_points)
-INSIDE int center_points(int rows, int n, double largest, double length, double left,
-                         double right, const double *y, const double *small, const double *large,
-                         double middle, double *value, double *slope)
+INSIDE int center_points(int rows, const struct column *of, const double *y, const double *small,
+                         const double *large, double middle, double *value, double *slope)
 {
-    const double per_length = 1.0 / length;
+    const int n = of->n;
+    const double left = of->left, right = of->right, length = of->length, per_length = 1.0 / length;
     const double unit[2] = {right < left ? -length : length, right < left ? -1.0 : 1.0};
     bits missing = {0};
 
     for (int i = 0; i < n; i += LANES) {
         lanes place = some(y + i, n - i);
-        const bits plain = plain_where(place, largest);
+        const bits plain = plain_where(place, of->largest);
         place = pick(plain, place, all(left));
         const lanes a = (left - place) * per_length, b = (right - place) * per_length;
         const bits inside = ((bits)a ^ (bits)b) & INT64_MIN;
@@ -329,16 +331,14 @@ INSIDE int center_points(int rows, int n, double largest, double length, double 
     return !any(missing);
 }
 
-TARGET static int NAME(center)(int n, double largest, double length, double left, double right,
-                                const double *y, const double *small, const double *large,
-                                double middle, double *value, double *slope)
+TARGET static int NAME(center)(const struct column *of, const double *y, const double *small,
+                               const double *large, double middle, double *value, double *slope)
 {
-    if (!is_plain(largest, length, left, right))
+    if (!is_plain(of))
         return -1;
     if (slope)
-        return center_points(2, n, largest, length, left, right, y, small, large, middle, value,
-                             slope);
-    return center_points(1, n, largest, length, left, right, y, small, large, middle, value, slope);
+        return center_points(2, of, y, small, large, middle, value, slope);
+    return center_points(1, of, y, small, large, middle, value, slope);
 }
 
 /* Off the centre line: nodes of a field point side by side. Four field points at a time, sorted by
@@ -465,27 +465,26 @@ INSIDE void own_tip(lanes kappa, const double *own, lanes *value, lanes *slope)
     *slope = power * (p - q);
 }
 
-TARGET static int NAME(off_center)(int n, double largest, double length, double left,
-                                   double right, const double *x, const double *y,
-                                   const int *size, const double *limit, int nodes,
-                                   const double *node, const double *form, const double *atanh,
-                                   const double *own, double *value, double *d_x,
-                                   double *d_length)
+TARGET static int NAME(off_center)(const struct column *of, const double *x, const double *y,
+                                   const int *size, const double *table, const double *node,
+                                   double *value, double *d_x, double *d_length)
 {
+    const int *start = size + RULES;
+    /* Nodes of two accuracies stand side by side. */
+    const int n = of->n, apart = 2 * (start[RULES - 1] + size[RULES - 1]);
+    const double *limit = table, *n0 = limit + RULES, *n1 = n0 + RULES, *last_x = n1 + RULES;
+    const double *weight = last_x + RULES, *form = weight + RULES, *atanh = form + 4;
+    const double *own = atanh + 16;
     const double thin_last = form[0], wide_last = form[1];
     const lanes beyond = all(form[2]);
-    const int *start = size + RULES;
-    /* Two accuracies stand side by side. */
-    const double *n0 = limit + 2 * RULES, *n1 = n0 + 2 * RULES, *last_x = n1 + 2 * RULES;
-    const double *weight = last_x + 2 * RULES;
     bits missing = {0};
 
-    if (!is_plain(largest, length, left, right))
+    if (!is_plain(of))
         return -1;
-    const double per_length = 1.0 / length;
+    const double left = of->left, right = of->right, length = of->length, per_length = 1.0 / length;
     for (int i = 0; i < n; i += LANES) {
         const lanes place = some(y + i, n - i), along = some(x + i, n - i);
-        const bits plain = plain_where(place, largest) & plain_where(along, largest);
+        const bits plain = plain_where(place, of->largest) & plain_where(along, of->largest);
         const lanes across = pick(plain, place, all(left));
         const lanes xs = smaller(size_of(pick(plain, along, all(0.0))) * per_length, beyond);
         const lanes a = (left - across) * per_length, b = (right - across) * per_length;
@@ -513,7 +512,7 @@ TARGET static int NAME(off_center)(int n, double largest, double length, double 
             /* A node of these costs somewhat more. */
             const int is_near = other + 1 < far[j] && xs[j] <= last_x[other];
             const int rule = is_near ? other : (int)far[j];
-            const point_t of = {xs[j], cl2[j], cr2[j], middle2[j], width[j], m[0] + j};
+            const point_t point = {xs[j], cl2[j], cr2[j], middle2[j], width[j], m[0] + j};
 
             if (j >= n - i || !serves[j] || rule == RULES) {
                 m[0][j] = m[1][j] = m[2][j] = all(0.0);
@@ -522,13 +521,13 @@ TARGET static int NAME(off_center)(int n, double largest, double length, double 
             const double *first = node + start[rule];
             factor[j] = weight[rule];
             if (is_near && thin[j])
-                near_rule(1, size[rule], first + 2 * nodes, 2 * nodes, of, (const double *)c + j);
+                near_rule(1, size[rule], first + apart, apart, point, (const double *)c + j);
             else if (is_near)
-                near_rule(0, size[rule], first + 2 * nodes, 2 * nodes, of, atanh);
+                near_rule(0, size[rule], first + apart, apart, point, atanh);
             else if (thin[j])
-                far_rule(1, size[rule], first, of, (const double *)c + j);
+                far_rule(1, size[rule], first, point, (const double *)c + j);
             else
-                far_rule(0, size[rule], first, of, atanh);
+                far_rule(0, size[rule], first, point, atanh);
         }
         factor = factor * width;
         lanes sum[3] = {factor * totals(m[0]), factor * totals(m[1]), factor * totals(m[2])};

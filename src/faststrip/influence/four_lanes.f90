@@ -13,7 +13,17 @@ module faststrip_influence_four_lanes
     implicit none
     private
 
-    public :: lanes_for, center_lanes, off_center_lanes
+    public :: lanes_for, column_t, center_lanes, off_center_lanes
+
+    !> A strip and how many field points see it.
+    type, bind(C) :: column_t
+        integer(c_int) :: by           !! lanes: 4 or 2
+        integer(c_int) :: n            !! field points
+        real(c_double) :: largest      !! place, mm
+        real(c_double) :: half_length  !! of the strip, mm
+        real(c_double) :: y_left       !! its left edge, mm
+        real(c_double) :: y_right      !! its right edge, mm
+    end type column_t
 
     interface
         ! 4 if this processor has AVX2 and FMA, else 2; 0 if the compiler has no vectors.
@@ -22,52 +32,35 @@ module faststrip_influence_four_lanes
         end function ask_processor
 
         !> Points of a centre line, by G(c) on both sides of c = 1.
-        pure subroutine center_lanes(by, n, largest, half_length, y_left, y_right, y, small, &
-                                     large, middle, value, slope, found) &
+        pure subroutine center_lanes(column, y, small, large, middle, value, slope, found) &
             bind(C, name='influence_center')
             import
-            integer(c_int), intent(in), value :: by          !! lanes: 4 or 2
-            integer(c_int), intent(in), value :: n           !! field points
-            real(c_double), intent(in), value :: largest     !! place, mm
-            real(c_double), intent(in), value :: half_length !! of the strip, mm
-            real(c_double), intent(in), value :: y_left      !! its left edge, mm
-            real(c_double), intent(in), value :: y_right     !! its right edge, mm
-            real(c_double), intent(in) :: y(*)               !! the field points, mm
-            real(c_double), intent(in) :: small(4, 0:20)     !! powers of c^2: A, B of G, G - c G'
-            real(c_double), intent(in) :: large(2, 0:26)     !! of 1/c^2 - middle: R of the same
-            real(c_double), intent(in), value :: middle      !! of these powers
-            real(c_double), intent(inout) :: value(*)        !! influence, mm
+            type(column_t), intent(in) :: column         !! the strip
+            real(c_double), intent(in) :: y(*)           !! the field points, mm
+            real(c_double), intent(in) :: small(4, 0:20) !! powers of c^2: A, B of G, of G - c G'
+            real(c_double), intent(in) :: large(2, 0:26) !! of 1/c^2 - middle: R of the same
+            real(c_double), intent(in) :: middle         !! of these powers
+            real(c_double), intent(inout) :: value(*)    !! influence, mm
             real(c_double), intent(inout), optional :: slope(*) !! its derivative in the half-length
-            integer(c_int), intent(inout) :: found           !! how far it got
+            integer(c_int), intent(inout) :: found       !! how far it got
         end subroutine center_lanes
 
         !> Points off a centre line, by the rules of faststrip_influence_angle_rules; those that no
         !> rule serves have the value 0.
-        pure subroutine off_center_lanes(by, n, largest, half_length, y_left, y_right, x, y, &
-                                         size, limit, nodes, node, form, atanh, own, value, d_x, &
+        pure subroutine off_center_lanes(column, x, y, size, table, node, value, d_x, &
                                          d_half_length, found) &
             bind(C, name='influence_off_center')
             import
-            integer(c_int), intent(in), value :: by          !! lanes: 4 or 2
-            integer(c_int), intent(in), value :: n           !! field points
-            real(c_double), intent(in), value :: largest     !! place, mm
-            real(c_double), intent(in), value :: half_length !! of the strip, mm
-            real(c_double), intent(in), value :: y_left      !! its left edge, mm
-            real(c_double), intent(in), value :: y_right     !! its right edge, mm
-            real(c_double), intent(in) :: x(*)               !! the field points along, mm
-            real(c_double), intent(in) :: y(*)               !! the field points across, mm
-            integer(c_int), intent(in) :: size(9, 2)         !! column_size
-            real(c_double), intent(in) :: limit(*)           !! column_limit from the accuracy on
-            integer(c_int), intent(in), value :: nodes       !! n_column_nodes
-            real(c_double), intent(in) :: node(*)            !! column_node from the accuracy on
-            real(c_double), intent(in) :: form(4) !! narrowness of a thin strip and of any, largest
-                                                  !! X, largest half-width of the own tip's series
-            real(c_double), intent(in) :: atanh(0:15)        !! 2 atanh(z)/z, powers of z^2
-            real(c_double), intent(in) :: own(2, 0:19)       !! the own tip's series: I, slope
-            real(c_double), intent(inout) :: value(*)        !! influence, mm
-            real(c_double), intent(inout) :: d_x(*)          !! its derivative in x
+            type(column_t), intent(in) :: column      !! the strip
+            real(c_double), intent(in) :: x(*)        !! the field points along, mm
+            real(c_double), intent(in) :: y(*)        !! the field points across, mm
+            integer(c_int), intent(in) :: size(9, 2)  !! column_size
+            real(c_double), intent(in) :: table(105)  !! limits and series of the accuracy
+            real(c_double), intent(in) :: node(*)     !! column_node from the accuracy on
+            real(c_double), intent(inout) :: value(*) !! influence, mm
+            real(c_double), intent(inout) :: d_x(*)   !! its derivative in x
             real(c_double), intent(inout) :: d_half_length(*) !! and in the half-length
-            integer(c_int), intent(inout) :: found           !! how far it got
+            integer(c_int), intent(inout) :: found    !! how far it got
         end subroutine off_center_lanes
     end interface
 
