@@ -18,7 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 OWN = ROOT / "tools/building/single_precision"
 PROGRAM = OWN / "kernels.f90"
 KINDS = ROOT / "src" / "faststrip" / "base" / "kinds.f90"
-LAPACK = ("gtsv", "getrf", "getrs", "gecon", "geqrf", "ormqr", "trtrs", "gesvd", "posv", "potrf",
+LAPACK = ("getrf", "getrs", "gecon", "geqrf", "ormqr", "trtrs", "gesvd", "posv", "potrf",
           "potrs", "sytrf", "sytrs")
 # Constants beyond the range of single precision become 0 or infinity.
 FLAGS = ("-fopenmp-simd -frecursive -fimplicit-none -std=f2018 -fno-range-check").split()

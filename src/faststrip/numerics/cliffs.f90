@@ -77,89 +77,77 @@ module faststrip_numerics_cliffs
 contains
 
     !> Tell which points are torn. The first and the last are not.
-    pure subroutine find_torn_points(x, y, c, excess, is_torn, any_torn)
-        real(wp), intent(in) :: x(:)          !! strictly increasing, at least 3
-        real(wp), intent(in) :: y(:)          !! heights, as many
-        real(wp), intent(inout) :: c(:)       !! second derivatives by three points, as many; those
-                                              !! of the ends repeat their neighbours'
-        real(wp), intent(inout) :: excess(:)  !! work space, as many
-        logical, intent(inout) :: is_torn(:)  !! the answer, as many
+    pure subroutine find_torn_points(n, x, y, secants, c, excess, is_torn, any_torn)
+        integer, intent(in) :: n              !! number of points, at least 3
+        real(wp), intent(in) :: x(n)          !! strictly increasing
+        real(wp), intent(in) :: y(n)          !! heights
+        real(wp), intent(in) :: secants(n)    !! slopes of the intervals; the last has no meaning
+        real(wp), intent(inout) :: c(n)       !! second derivatives by three points; those of the
+                                              !! ends repeat their neighbours'
+        real(wp), intent(inout) :: excess(n)  !! work space
+        logical, intent(inout) :: is_torn(n)  !! the answer
         logical, intent(out) :: any_torn      !! is one?
 
-        integer :: n, k
-        logical :: any_doubt
-
-        n = size(x)
-        call second_derivatives(n, x, y, c)
-        any_torn = .false.
-        any_doubt = .false.
-        do k = 2, n - 1
-            if (max(abs(c(k) - c(k - 1)), abs(c(k + 1) - c(k))) > least_change*abs(c(k))) then
-                any_doubt = .true.
-                exit
-            end if
-        end do
-        is_torn = .false.
-        if (.not. any_doubt) return
-        excess = 0.0_wp
-        call compare_both_sides(n, x, y, c, excess, is_torn)
-        call let_arcs_be(n, x, c, excess, is_torn)
-        call compare_one_side(n, 1, x, y, c, is_torn)
-        call compare_one_side(n, -1, x, y, c, is_torn)
-        any_torn = any(is_torn)
-    end subroutine find_torn_points
-
-    pure subroutine second_derivatives(n, x, y, c)
-        integer, intent(in) :: n
-        real(wp), intent(in) :: x(n), y(n)
-        real(wp), intent(inout) :: c(n)
-
         integer :: k
-        real(wp) :: left, right
+        logical :: any_rough ! is there one more for `compare_one_side` to begin with?
 
-        right = (y(2) - y(1))/(x(2) - x(1))
         do k = 2, n - 1
-            left = right
-            right = (y(k + 1) - y(k))/(x(k + 1) - x(k))
-            c(k) = 2.0_wp*(right - left)/(x(k + 1) - x(k - 1))
+            c(k) = 2.0_wp*(secants(k) - secants(k - 1))/(x(k + 1) - x(k - 1))
         end do
         c(1) = c(2)
         c(n) = c(n - 1)
-    end subroutine second_derivatives
-
-    !> Points that neither side foretells.
-    pure subroutine compare_both_sides(n, x, y, c, excess, is_torn)
-        integer, intent(in) :: n
-        real(wp), intent(in) :: x(n), y(n), c(n)
-        real(wp), intent(inout) :: excess(n)
-        logical, intent(inout) :: is_torn(n)
-
-        integer :: k
-
         do k = 2, n - 1
-            if ((c(k) - c(k - 1))*sign(1.0_wp, c(k) - c(k + 1)) <= 0.0_wp) cycle
-            call look_at(n, x, y, c, k, excess, is_torn)
+            excess(k) = change_beyond(n, c, k)
         end do
-        ! The smaller part of a kink between two points is no extremum.
+        is_torn = .false.
+        any_torn = .false.
+        any_rough = .false.
         do k = 2, n - 1
-            if (is_torn(k - 1)) call look_at(n, x, y, c, k, excess, is_torn)
+            if (excess(k) <= 0.0_wp) cycle
+            any_rough = any_rough .or. jumps(c(k - 1), c(k)) .or. jumps(c(k + 1), c(k))
+            ! The smaller part of a kink between two points is no extremum.
+            if ((c(k) - c(k - 1))*sign(1.0_wp, c(k) - c(k + 1)) <= 0.0_wp &
+                .and. .not. is_torn(k - 1)) cycle
+            call look_at(n, x, y, secants, c, k, excess, is_torn)
+            any_torn = any_torn .or. is_torn(k)
         end do
+        if (.not. (any_torn .or. any_rough)) return
         do k = n - 1, 2, -1
-            if (is_torn(k + 1)) call look_at(n, x, y, c, k, excess, is_torn)
+            if (is_torn(k + 1) .and. .not. is_torn(k)) &
+                call look_at(n, x, y, secants, c, k, excess, is_torn)
         end do
-    end subroutine compare_both_sides
+        call let_arcs_be(n, x, c, excess, is_torn)
+        call compare_one_side(n, 1, x, y, secants, c, is_torn)
+        call compare_one_side(n, -1, x, y, secants, c, is_torn)
+        any_torn = any(is_torn)
+    end subroutine find_torn_points
+
+    !> By how much a second derivative differs from one beside it, over what is no step.
+    pure real(wp) function change_beyond(n, c, k)
+        integer, intent(in) :: n, k
+        real(wp), intent(in) :: c(n)
+
+        change_beyond = max(abs(c(k) - c(k - 1)), abs(c(k + 1) - c(k))) - least_change*abs(c(k))
+    end function change_beyond
+
+    !> Is a second derivative beyond that of a smooth point before it?
+    pure logical function jumps(before, c)
+        real(wp), intent(in) :: before, c
+
+        jumps = abs(c - before) > 0.5_wp*rough_factor*abs(before)
+    end function jumps
 
     !> Is this point one that neither side foretells?
-    pure subroutine look_at(n, x, y, c, k, excess, is_torn)
+    pure subroutine look_at(n, x, y, secants, c, k, excess, is_torn)
         integer, intent(in) :: n, k
-        real(wp), intent(in) :: x(n), y(n), c(n)
+        real(wp), intent(in) :: x(n), y(n), secants(n), c(n)
         real(wp), intent(inout) :: excess(n)
         logical, intent(inout) :: is_torn(n)
 
         type(side_t) :: left, right
         real(wp) :: change
 
-        if (max(abs(c(k) - c(k - 1)), abs(c(k + 1) - c(k))) <= least_change*abs(c(k))) return
+        if (change_beyond(n, c, k) <= 0.0_wp) return
         left = foretold(n, x, c, is_torn, .false., k, -1)
         right = foretold(n, x, c, is_torn, .false., k, 1)
         if (.not. (left%is_known .or. right%is_known)) return
@@ -171,7 +159,7 @@ contains
                      .and. change > least_change*abs(c(k)) &
                      .and. change*chord_factor(n, x, k) &
                      > max(too_much*max(left%uneven, right%uneven), &
-                           rounding_of(n, x, y, k))
+                           rounding_of(n, x, y, secants, k))
         if (is_torn(k)) is_torn(k) = .not. comes_again(n, x, c, k, excess(k))
     end subroutine look_at
 
@@ -205,9 +193,9 @@ contains
 
     !> Points of a rough stretch as seen from the smooth side before it: the last points that are
     !> not torn foretell, until others agree with them, or with each other.
-    pure subroutine compare_one_side(n, step, x, y, c, is_torn)
+    pure subroutine compare_one_side(n, step, x, y, secants, c, is_torn)
         integer, intent(in) :: n, step ! 1 from the left, -1 from the right
-        real(wp), intent(in) :: x(n), y(n), c(n)
+        real(wp), intent(in) :: x(n), y(n), secants(n), c(n)
         logical, intent(inout) :: is_torn(n)
 
         type(side_t) :: before, after
@@ -220,15 +208,14 @@ contains
             k = merge(i, n + 1 - i, step > 0)
             if (is_torn(k)) cycle
             ! The point before is as the side before, unless it is torn.
-            if (.not. (goes_on .or. is_torn(k - step)) .and. abs(c(k) - c(k - step)) &
-                <= 0.5_wp*rough_factor*abs(c(k - step))) cycle
+            if (.not. (goes_on .or. is_torn(k - step) .or. jumps(c(k - step), c(k)))) cycle
             if (.not. goes_on) before = foretold(n, x, c, is_torn, .true., k, -step)
             goes_on = .false.
             if (.not. before%is_known) cycle
             change = abs(c(k) - before%c)
             if (change <= max(rough_factor*abs(before%c), too_much*before%scatter)) cycle
             if (change*chord_factor(n, x, k) &
-                <= max(too_much*before%uneven, rounding_of(n, x, y, k))) cycle
+                <= max(too_much*before%uneven, rounding_of(n, x, y, secants, k))) cycle
             if (comes_again(n, x, c, k, c(k) - before%c)) cycle
             after = foretold(n, x, c, is_torn, .false., k, step)
             if (after%is_known .and. after%agrees .and. too_much*after%scatter < change &
@@ -352,15 +339,14 @@ contains
     end function chord_factor
 
     !> What of such a height may be rounding.
-    pure real(wp) function rounding_of(n, x, y, k)
+    pure real(wp) function rounding_of(n, x, y, secants, k)
         integer, intent(in) :: n
-        real(wp), intent(in) :: x(n), y(n)
+        real(wp), intent(in) :: x(n), y(n), secants(n)
         integer, intent(in) :: k
 
         real(wp) :: slope
 
-        slope = max(abs((y(k) - y(k - 1))/(x(k) - x(k - 1))), &
-                    abs((y(k + 1) - y(k))/(x(k + 1) - x(k))))
+        slope = max(abs(secants(k - 1)), abs(secants(k)))
         rounding_of = rounding*epsilon(1.0_wp)*(maxval(abs(y(k - 1:k + 1))) + abs(x(k))*slope)
     end function rounding_of
 
@@ -369,19 +355,23 @@ contains
         integer, intent(in) :: m
         real(wp), intent(in) :: values(m)
 
-        real(wp) :: sorted(window), moved
+        integer, parameter :: middle = (window + 1)/2
+        real(wp) :: sorted(window), lower
         integer :: i, j
 
-        do i = 1, m
-            moved = values(i)
-            j = i - 1
-            do while (j > 0)
-                if (sorted(j) <= moved) exit
-                sorted(j + 1) = sorted(j)
-                j = j - 1
+        ! Those that are missing on both sides of the others, so that the middle is in its place.
+        sorted = huge(1.0_wp)
+        sorted(:(window - m)/2) = -huge(1.0_wp)
+        sorted((window - m)/2 + 1:(window + m)/2) = values
+        ! The larger half only.
+        do i = window, middle - 1, -1
+            do j = 1, i - 1
+                lower = min(sorted(j), sorted(j + 1))
+                sorted(j + 1) = max(sorted(j), sorted(j + 1))
+                sorted(j) = lower
             end do
-            sorted(j + 1) = moved
         end do
-        median = 0.5_wp*(sorted((m + 1)/2) + sorted(m/2 + 1))
+        median = sorted(middle)
+        if (modulo(m, 2) == 0) median = 0.5_wp*(median + sorted(middle - 1))
     end function median
 end module faststrip_numerics_cliffs

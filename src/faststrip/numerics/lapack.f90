@@ -5,19 +5,9 @@ module faststrip_numerics_lapack
     implicit none
     private
 
-    public :: dgtsv, dgetrf, dgetrs, dgecon, dgeqrf, dormqr, dtrtrs, dgesvd, dpbtrf, dpbtrs
+    public :: dgetrf, dgetrs, dgecon, dgeqrf, dormqr, dtrtrs, dgesvd, dpbtrf, dpbtrs
 
     interface
-        !> Solve a tridiagonal system by elimination with partial pivoting; the three diagonals
-        !> are destroyed, `b` receives the solution; `info` > 0: singular.
-        pure subroutine dgtsv(n, nrhs, dl, d, du, b, ldb, info)
-            import :: wp
-            integer, intent(in) :: n, nrhs, ldb
-            real(wp), intent(inout) :: dl(*), d(*), du(*)
-            real(wp), intent(inout) :: b(ldb, *)
-            integer, intent(out) :: info
-        end subroutine dgtsv
-
         !> LU factors of a general matrix, in place; `info` > 0: singular.
         pure subroutine dgetrf(m, n, a, lda, ipiv, info)
             import :: wp

@@ -6,7 +6,6 @@ module faststrip_numerics_spline
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: largest_size
-    use faststrip_numerics_lapack, only: dgtsv
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
                                      st_bad_argument, st_linear_algebra, st_not_finite, &
                                      st_not_increasing, st_too_few_points, st_workspace_too_small
@@ -15,6 +14,7 @@ module faststrip_numerics_spline
 
     public :: spline_setup, spline_value, spline_work_size, cubic_value, interval_of
     public :: spline_not_a_knot, spline_monotone
+    public :: check_points, find_secants, not_a_knot_slopes, monotone_slopes
 
     !> Twice continuously differentiable; the third derivative does not jump at the second and
     !> the last but one knot (not-a-knot).
@@ -66,24 +66,23 @@ contains
             call set_status(status, st_workspace_too_small, 'spline: the workspace is too small')
             return
         end if
-        if (n == 2) then
-            slopes = (y(2) - y(1))/(x(2) - x(1))
-            return
-        end if
+        call find_secants(n, x, y, work(:n))
         select case (kind)
         case (spline_not_a_knot)
-            call not_a_knot_slopes(n, x, y, slopes, work(1:n), work(n + 1:2*n), &
+            call not_a_knot_slopes(n, x, work(:n), slopes, work(n + 1:2*n), &
                                    work(2*n + 1:3*n), status)
         case (spline_monotone)
-            call monotone_slopes(n, x, y, slopes)
+            call monotone_slopes(n, x, work(:n), slopes)
         case default
             call set_status(status, st_bad_argument, 'spline: unknown kind')
         end select
     end subroutine spline_setup
 
+    !> Refuse points that no curve is drawn through.
     pure subroutine check_points(x, y, status)
-        real(wp), intent(in) :: x(:), y(:)
-        type(status_t), intent(out) :: status
+        real(wp), intent(in) :: x(:)          !! knots
+        real(wp), intent(in) :: y(:)          !! values
+        type(status_t), intent(out) :: status !! those of `spline_setup` about them
         integer :: i
 
         call clear_status(status)
@@ -119,66 +118,89 @@ contains
         end do
     end subroutine check_points
 
-    ! The slopes that make the second derivative continuous (de Boor, A Practical Guide to
-    ! Splines, ch. IV): a tridiagonal system, its first and last row from not-a-knot. Rows are
-    ! scaled by the sum of the two intervals, so that the diagonal is of order one.
-    pure subroutine not_a_knot_slopes(n, x, y, slopes, lower, diagonal, upper, status)
-        integer, intent(in) :: n
-        real(wp), intent(in) :: x(n), y(n)
-        real(wp), intent(out) :: slopes(n)
-        real(wp), intent(inout) :: lower(n), diagonal(n), upper(n)
-        type(status_t), intent(inout) :: status
-        real(wp) :: a, b, left, right
-        integer :: i, info
+    !> The slopes of the chords between neighbours.
+    pure subroutine find_secants(n, x, y, secants)
+        integer, intent(in) :: n                !! number of knots, at least 2
+        real(wp), intent(in) :: x(n), y(n)      !! knots, strictly increasing, and values
+        real(wp), intent(inout) :: secants(n)   !! of each interval; the last has no meaning
 
-        if (n == 3) then
-            left = (y(2) - y(1))/(x(2) - x(1))
-            right = (y(3) - y(2))/(x(3) - x(2))
+        integer :: i
+
+        do i = 1, n - 1
+            secants(i) = (y(i + 1) - y(i))/(x(i + 1) - x(i))
+        end do
+    end subroutine find_secants
+
+    !> The slopes that make the second derivative continuous (de Boor, A Practical Guide to
+    !> Splines, ch. IV): a tridiagonal system, its first and last row from not-a-knot. Rows are
+    !> scaled by the sum of the two intervals, so that the diagonal is of order one and its own
+    !> pivot.
+    pure subroutine not_a_knot_slopes(n, x, secants, slopes, upper, pivots, status)
+        integer, intent(in) :: n                !! number of knots, at least 2
+        real(wp), intent(in) :: x(n)            !! knots, strictly increasing
+        real(wp), intent(in) :: secants(n)      !! of `find_secants`
+        real(wp), intent(inout) :: slopes(n)    !! at the knots
+        real(wp), intent(inout) :: upper(n), pivots(n) !! workspace
+        type(status_t), intent(inout) :: status !! gets `st_linear_algebra`
+
+        real(wp) :: a, b, pivot, factor
+        integer :: i
+
+        if (n == 2) then
+            slopes(:2) = secants(1)
+            return
+        else if (n == 3) then
             a = (x(2) - x(1))/(x(3) - x(1))
-            slopes(2) = (1.0_wp - a)*left + a*right
-            slopes(1) = 2.0_wp*left - slopes(2)
-            slopes(3) = 2.0_wp*right - slopes(2)
+            slopes(2) = (1.0_wp - a)*secants(1) + a*secants(2)
+            slopes(1) = 2.0_wp*secants(1) - slopes(2)
+            slopes(3) = 2.0_wp*secants(2) - slopes(2)
             return
         end if
+        a = (x(2) - x(1))/(x(3) - x(1))
+        b = (x(3) - x(2))/(x(3) - x(1))
+        pivot = b
+        pivots(1) = b
+        upper(1) = 1.0_wp
+        slopes(1) = (2.0_wp + a)*b*secants(1) + a**2*secants(2)
         do i = 2, n - 1
-            left = (y(i) - y(i - 1))/(x(i) - x(i - 1))
-            right = (y(i + 1) - y(i))/(x(i + 1) - x(i))
             a = (x(i) - x(i - 1))/(x(i + 1) - x(i - 1))
             b = (x(i + 1) - x(i))/(x(i + 1) - x(i - 1))
-            lower(i - 1) = b
-            diagonal(i) = 2.0_wp
+            factor = b/pivot
+            pivot = 2.0_wp - factor*upper(i - 1)
+            pivots(i) = pivot
             upper(i) = a
-            slopes(i) = 3.0_wp*(b*left + a*right)
-            if (i == 2) then
-                diagonal(1) = b
-                upper(1) = 1.0_wp
-                slopes(1) = (2.0_wp + a)*b*left + a**2*right
-            end if
-            if (i == n - 1) then
-                lower(n - 1) = 1.0_wp
-                diagonal(n) = a
-                slopes(n) = (2.0_wp + b)*a*right + b**2*left
-            end if
+            slopes(i) = 3.0_wp*(b*secants(i - 1) + a*secants(i)) - factor*slopes(i - 1)
         end do
-        call dgtsv(n, 1, lower, diagonal, upper, slopes, n, info)
-        if (info /= 0) then
+        factor = 1.0_wp/pivot
+        pivot = a - factor*a
+        if (.not. abs(pivot) > 0.0_wp) then
             slopes = 0.0_wp
             call set_status(status, st_linear_algebra, 'spline: the system is singular')
+            return
         end if
+        slopes(n) = ((2.0_wp + b)*a*secants(n - 1) + b**2*secants(n - 2) &
+                     - factor*slopes(n - 1))/pivot
+        do i = n - 1, 1, -1
+            slopes(i) = (slopes(i) - upper(i)*slopes(i + 1))/pivots(i)
+        end do
     end subroutine not_a_knot_slopes
 
-    pure subroutine monotone_slopes(n, x, y, slopes)
-        integer, intent(in) :: n
-        real(wp), intent(in) :: x(n), y(n)
-        real(wp), intent(out) :: slopes(n)
+    !> The slopes of a curve that is monotone between two points.
+    pure subroutine monotone_slopes(n, x, secants, slopes)
+        integer, intent(in) :: n             !! number of knots, at least 2
+        real(wp), intent(in) :: x(n)         !! knots, strictly increasing
+        real(wp), intent(in) :: secants(n)   !! of `find_secants`
+        real(wp), intent(inout) :: slopes(n) !! at the knots
+
         real(wp) :: h_left, h_right, left, right
         integer :: i
 
+        if (n == 2) slopes(:2) = secants(1)
         do i = 2, n - 1
             h_left = x(i) - x(i - 1)
             h_right = x(i + 1) - x(i)
-            left = (y(i) - y(i - 1))/h_left
-            right = (y(i + 1) - y(i))/h_right
+            left = secants(i - 1)
+            right = secants(i)
             if (sign(1.0_wp, left) /= sign(1.0_wp, right) &
                 .or. min(abs(left), abs(right)) <= 0.0_wp) then
                 slopes(i) = 0.0_wp

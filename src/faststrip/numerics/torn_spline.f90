@@ -9,9 +9,11 @@
 !> `tame_interval` bounds by how much an interval may leave the range of its two points.
 module faststrip_numerics_torn_spline
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_limits, only: largest_size
+    use faststrip_base_status, only: status_t, clear_status, is_error
     use faststrip_numerics_cliffs, only: find_torn_points, too_much
-    use faststrip_numerics_spline, only: spline_setup, spline_not_a_knot, spline_monotone
+    use faststrip_numerics_spline, only: check_points, find_secants, not_a_knot_slopes, &
+                                         monotone_slopes
     implicit none
     private
 
@@ -23,57 +25,59 @@ contains
     pure integer function torn_spline_work_size(n)
         integer, intent(in) :: n !! number of points
 
-        torn_spline_work_size = 4*max(n, 1)
+        torn_spline_work_size = 3*max(n, 1)
     end function torn_spline_work_size
 
     !> The slopes at both ends of every interval.
-    subroutine torn_spline_setup(x, y, slope_from, slope_to, c, is_torn, is_step, work, status)
-        real(wp), intent(in) :: x(:)              !! knots, strictly increasing, at least 3
-        real(wp), intent(in) :: y(:)              !! values at the knots, as many
+    subroutine torn_spline_setup(x, y, slope_from, slope_to, c, is_torn, is_step, any_step, work, &
+                                 status)
+        real(wp), intent(in) :: x(:)              !! knots, finite, strictly increasing, at least 3
+        real(wp), intent(in) :: y(:)              !! values at the knots, finite, as many
         real(wp), intent(inout) :: slope_from(:)  !! of interval i at its left end, as many
         real(wp), intent(inout) :: slope_to(:)    !! and at its right end, as many; the last ones
                                                   !! of both have no meaning
         real(wp), intent(inout) :: c(:)           !! second derivatives by three points, as many
         logical, intent(inout) :: is_torn(:)      !! is there a tear at the knot? as many
         logical, intent(inout) :: is_step(:)      !! is interval i a step? as many
+        logical, intent(out) :: any_step          !! is one?
         real(wp), intent(inout) :: work(:)        !! see `torn_spline_work_size`
-        type(status_t), intent(out) :: status     !! those of `spline_setup`
+        type(status_t), intent(out) :: status     !! those of `check_points`, `not_a_knot_slopes`
 
         integer :: n, first, last
         logical :: any_torn
 
         n = size(x)
+        any_step = .false.
+        call check_size(n, x, y, status)
+        if (is_error(status)) return
         is_step = .false.
-        call find_torn_points(x, y, c, work(:n), is_torn, any_torn)
-        last = merge(1, n, any_torn)
-        if (.not. any_torn) call fit(1, n, spline_not_a_knot)
-        do while (last < n)
-            first = last
-            last = first + 1
-            do while (last < n .and. .not. is_torn(last))
-                last = last + 1
+        associate (secants => work(:n))
+            call find_secants(n, x, y, secants)
+            call find_torn_points(n, x, y, secants, c, work(n + 1:2*n), is_torn, any_torn)
+            last = 1
+            do while (last < n)
+                first = last
+                last = merge(first + 1, n, any_torn)
+                do while (last < n)
+                    if (is_torn(last)) exit
+                    last = last + 1
+                end do
+                call not_a_knot_slopes(last - first + 1, x(first:last), secants(first:last), &
+                                       slope_from(first:last), work(n + 1:2*n), &
+                                       work(2*n + 1:3*n), status)
+                if (is_error(status)) return
+                slope_to(first:last - 1) = slope_from(first + 1:last)
             end do
-            call fit(first, last, spline_not_a_knot)
-            if (is_error(status)) return
-        end do
-        if (any_torn) call take_steps()
+            if (any_torn) call take_steps(secants)
+        end associate
 
     contains
 
-        !> Interpolate the points `first` to `last`.
-        subroutine fit(first, last, kind)
-            integer, intent(in) :: first, last, kind
-
-            integer :: m
-
-            m = last - first + 1
-            call spline_setup(x(first:last), y(first:last), kind, work(:m), work(n + 1:), status)
-            slope_from(first:last - 1) = work(:m - 1)
-            slope_to(first:last - 1) = work(2:m)
-        end subroutine fit
-
         !> The intervals between torn points that are neighbours.
-        subroutine take_steps()
+        subroutine take_steps(secants)
+            real(wp), intent(in) :: secants(:)
+
+            real(wp) :: kept
             integer :: first, last
 
             ! The rows of torn points, as `faststrip_numerics_cliffs` goes through them before some
@@ -88,10 +92,14 @@ contains
                 end do
                 if (last == first) cycle
                 is_step(first:last - 1) = .true.
-                call fit(first, last, spline_monotone)
-                if (is_error(status)) return
+                any_step = .true.
+                kept = slope_from(last)
+                call monotone_slopes(last - first + 1, x(first:last), secants(first:last), &
+                                     slope_from(first:last))
+                slope_to(first:last - 1) = slope_from(first + 1:last)
+                slope_from(last) = kept
                 slope_from(first) = slope_to(first - 1)
-                slope_to(last - 1) = slope_from(last)
+                slope_to(last - 1) = kept
                 call make_monotone(x(first:first + 1), y(first:first + 1), slope_from(first), &
                                    slope_to(first))
                 call make_monotone(x(last - 1:last), y(last - 1:last), slope_from(last - 1), &
@@ -99,6 +107,26 @@ contains
             end do
         end subroutine take_steps
     end subroutine torn_spline_setup
+
+    !> Refuse points beyond all sizes, or too near to each other: `check_points` tells which.
+    pure subroutine check_size(n, x, y, status)
+        integer, intent(in) :: n
+        real(wp), intent(in) :: x(n), y(n)
+        type(status_t), intent(out) :: status
+
+        real(wp) :: largest, nearest
+        integer :: i
+
+        call clear_status(status)
+        largest = max(-x(1), x(n))
+        nearest = largest_size
+        do i = 1, n - 1
+            largest = max(largest, abs(y(i)))
+            nearest = min(nearest, x(i + 1) - x(i))
+        end do
+        if (max(largest, abs(y(n))) > largest_size .or. nearest < 1.0_wp/largest_size) &
+            call check_points(x, y, status)
+    end subroutine check_size
 
     !> Hold the slopes of an interval so that its cubic is monotone (Fritsch & Carlson, SIAM J.
     !> Numer. Anal. 17 (1980)): their signs are that of the secant, or zero, and neither is more

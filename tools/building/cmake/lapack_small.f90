@@ -9,65 +9,9 @@ module faststrip_numerics_lapack
     implicit none
     private
 
-    public :: dgtsv, dpbtrf, dpbtrs
+    public :: dpbtrf, dpbtrs
 
 contains
-
-    !> Solve a tridiagonal system by elimination with partial pivoting; the three diagonals
-    !> are destroyed, `b` receives the solution; `info` > 0: singular.
-    pure subroutine dgtsv(n, nrhs, dl, d, du, b, ldb, info)
-        integer, intent(in) :: n, nrhs, ldb
-        real(wp), intent(inout) :: dl(*), d(*), du(*)
-        real(wp), intent(inout) :: b(ldb, *)
-        integer, intent(out) :: info
-
-        real(wp) :: factor, kept
-        integer :: i, k
-
-        info = 0
-        do i = 1, n - 1
-            if (dl(i) == 0.0_wp .and. d(i) == 0.0_wp) then
-                info = i
-                return
-            end if
-            if (abs(d(i)) >= abs(dl(i))) then
-                factor = dl(i)/d(i)
-                d(i + 1) = d(i + 1) - factor*du(i)
-                do k = 1, nrhs
-                    b(i + 1, k) = b(i + 1, k) - factor*b(i, k)
-                end do
-                dl(i) = 0.0_wp
-            else
-                ! Rows i and i + 1 change places; the second diagonal above comes into being.
-                factor = d(i)/dl(i)
-                d(i) = dl(i)
-                kept = d(i + 1)
-                d(i + 1) = du(i) - factor*kept
-                du(i) = kept
-                if (i < n - 1) then
-                    dl(i) = du(i + 1)
-                    du(i + 1) = -factor*dl(i)
-                end if
-                do k = 1, nrhs
-                    kept = b(i, k)
-                    b(i, k) = b(i + 1, k)
-                    b(i + 1, k) = kept - factor*b(i + 1, k)
-                end do
-            end if
-        end do
-        if (n < 1) return
-        if (d(n) == 0.0_wp) then
-            info = n
-            return
-        end if
-        do k = 1, nrhs
-            b(n, k) = b(n, k)/d(n)
-            if (n > 1) b(n - 1, k) = (b(n - 1, k) - du(n - 1)*b(n, k))/d(n - 1)
-            do i = n - 2, 1, -1
-                b(i, k) = (b(i, k) - du(i)*b(i + 1, k) - dl(i)*b(i + 2, k))/d(i)
-            end do
-        end do
-    end subroutine dgtsv
 
     !> Cholesky factor of a positive definite band matrix, in place; with `uplo` U the upper
     !> diagonals stand in the rows of `ab`, the main one in row kd + 1; `info` > 0: it is not

@@ -38,17 +38,25 @@ contains
         type(gap_blocks_t), intent(inout) :: blocks !! reserved beforehand
         real(wp), intent(in) :: h(:)                !! heights of the nodes, mm
 
-        integer :: b, i, first, last
+        real(wp) :: low, high
+        integer :: b, i, first, last, n_valleys
 
         do b = 1, block_of(size(h))
             first = (b - 1)*block + 1
             last = min(b*block, size(h))
-            blocks%low(b) = minval(h(first:last))
-            blocks%high(b) = maxval(h(first:last))
-            blocks%has_valley(b) = .false.
-            do i = first, last
-                if (is_valley(h, i)) blocks%has_valley(b) = .true.
+            low = h(first)
+            high = low
+            do i = first + 1, last
+                low = min(low, h(i))
+                high = max(high, h(i))
             end do
+            blocks%low(b) = low
+            blocks%high(b) = high
+            n_valleys = 0
+            do i = max(first, 2), min(last, size(h) - 1)
+                if (h(i) <= min(h(i - 1), h(i + 1))) n_valleys = n_valleys + 1
+            end do
+            blocks%has_valley(b) = n_valleys > 0
         end do
     end subroutine set_blocks
 

@@ -65,9 +65,10 @@ module faststrip_geometry_gap_curve
         type(gap_blocks_t) :: inclined         !! blocks of these
         real(wp), allocatable :: y_node(:), h_node(:) !! ends of the monotone pieces, mm
         type(gap_blocks_t) :: blocks           !! of these ends
-        real(wp), allocatable :: bend(:)       !! h'' at the points, by three of them, 1/mm
-        logical, allocatable :: is_torn(:)     !! does a step or a kink touch the point?
-        real(wp), allocatable :: work(:)       !! for the spline's linear system
+        ! For taking over a gap.
+        real(wp), allocatable :: bend(:)       ! h'' at the points, by three of them, 1/mm
+        logical, allocatable :: is_torn(:)     ! does a step or a kink touch the point?
+        real(wp), allocatable :: work(:)       ! for the spline
     end type gap_curve_t
 
 contains
@@ -172,8 +173,6 @@ contains
         call copy_blocks(from%blocks, to%blocks, nodes)
         to%y_node(:nodes) = from%y_node(:nodes)
         to%h_node(:nodes) = from%h_node(:nodes)
-        to%bend(:n) = from%bend(:n)
-        to%is_torn(:n) = from%is_torn(:n)
     end subroutine copy_gap_curve
 
     !> The number of the next gap that is taken over.
@@ -188,12 +187,13 @@ contains
     pure subroutine find_even_parts(curve)
         type(gap_curve_t), intent(inout) :: curve ! its points are set
 
-        integer :: i
+        integer :: i, last
 
-        curve%even_to(curve%n) = curve%n
-        do i = curve%n - 1, 1, -1
-            curve%even_to(i) = i
-            if (curve%inv2r(i + 1) == curve%inv2r(i)) curve%even_to(i) = curve%even_to(i + 1)
+        last = curve%n
+        curve%even_to(last) = last
+        do i = last - 1, 1, -1
+            if (curve%inv2r(i + 1) /= curve%inv2r(i)) last = i
+            curve%even_to(i) = last
         end do
     end subroutine find_even_parts
 
@@ -203,9 +203,14 @@ contains
         integer, intent(inout) :: n               ! their number
 
         integer :: i, first, kept
-        real(wp) :: near, alike
+        real(wp) :: near, nearest, alike
 
         near = double_distance*(curve%y(n) - curve%y(1))/(n - 1)
+        nearest = near
+        do i = 2, n
+            nearest = min(nearest, curve%y(i) - curve%y(i - 1))
+        end do
+        if (nearest >= near) return
         alike = double_height*(curve%y(n) - curve%y(1))/(n - 1)
         kept = 1
         do i = 2, n
@@ -275,13 +280,12 @@ contains
         curve%least_inv2r = flattest_ratio*usual_inv2r(curve%inv2r(:n))
         call torn_spline_setup(curve%y(:n), curve%h(:n), curve%slope_from(:n), &
                                curve%slope_to(:n), curve%bend(:n), curve%is_torn(:n), &
-                               curve%is_step(:n), curve%work, status)
+                               curve%is_step(:n), curve%has_steps, curve%work, status)
         if (is_error(status)) return
         curve%n = n
         curve%is_image = .false.
-        curve%has_steps = any(curve%is_step(:n))
-        call cut_into_pieces(curve%y(:n), curve%h(:n), curve%bend(:n), curve%slope_from(:n), &
-                             curve%slope_to(:n), curve%y_node, curve%h_node, curve%n_pieces)
+        call cut_into_pieces(n, curve%y, curve%h, curve%bend, curve%slope_from, curve%slope_to, &
+                             curve%work, curve%y_node, curve%h_node, curve%n_pieces)
         call find_lowest(curve%y_node(:curve%n_pieces + 1), curve%h_node(:curve%n_pieces + 1), &
                          curve%y_lowest, curve%h_lowest)
         if (side < 0) then
@@ -330,9 +334,7 @@ contains
         call reverse(curve%h(:n))
         call reverse(curve%inv2r(:n))
         call reverse_exchanged(curve%slope_from(:n - 1), curve%slope_to(:n - 1))
-        call reverse(curve%is_step(:n - 1))
-        call reverse(curve%bend(:n))
-        call reverse(curve%is_torn(:n))
+        if (curve%has_steps) call reverse(curve%is_step(:n - 1))
         call reverse_negated(curve%y_node(:nodes))
         call reverse(curve%h_node(:nodes))
         call set_blocks(curve%blocks, curve%h_node(:nodes))
@@ -366,14 +368,19 @@ contains
     pure real(wp) function usual_inv2r(inv2r) result(usual)
         real(wp), intent(in) :: inv2r(:)
 
-        real(wp) :: total, unit
+        real(wp) :: largest, total, unit
         integer :: i, n
 
-        usual = minval(inv2r)
-        if (usual >= flattest_ratio*maxval(inv2r) .and. usual > 0.0_wp) return
+        usual = inv2r(1)
+        largest = usual
+        do i = 2, size(inv2r)
+            usual = min(usual, inv2r(i))
+            largest = max(largest, inv2r(i))
+        end do
+        if (usual >= flattest_ratio*largest .and. usual > 0.0_wp) return
         ! In a power of two for a unit, so that other units of length leave the digits as they are.
         usual = 0.0_wp
-        unit = scale(1.0_wp, exponent(maxval(inv2r)) - 1)
+        unit = scale(1.0_wp, exponent(largest) - 1)
         total = 0.0_wp
         n = 0
         do i = 1, size(inv2r)

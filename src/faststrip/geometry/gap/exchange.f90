@@ -24,9 +24,7 @@ contains
         call swap_reals(one%inclination, other%inclination)
         call swap_reals(one%y_node, other%y_node)
         call swap_reals(one%h_node, other%h_node)
-        call swap_reals(one%bend, other%bend)
         call swap_logicals(one%is_step, other%is_step)
-        call swap_logicals(one%is_torn, other%is_torn)
         call swap_blocks(one%blocks, other%blocks)
         call swap_blocks(one%inclined, other%inclined)
     end subroutine swap_gap_curves

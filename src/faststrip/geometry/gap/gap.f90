@@ -53,8 +53,8 @@ contains
         type(status_t), intent(out) :: status !! as `check_gap`
         real(wp), intent(in), optional :: inclination(:) !! of the surfaces from y = 0 on, rad
 
-        real(wp) :: before
         integer :: i, n
+        logical :: is_good
 
         call clear_status(status)
         n = size(y)
@@ -79,28 +79,41 @@ contains
                             trim(count_text(n)))
             return
         end if
-        before = 0.0_wp
-        do i = 1, n
+        is_good = are_finite(y) .and. are_finite(h) .and. are_finite(inv2r)
+        if (is_good) is_good = count(y(2:) <= y(:n - 1)) == 0
+        do i = 1, merge(0, n, is_good)
             call check_finite('y', i, y(i), status)
             if (status%code == 0) call check_finite('h', i, h(i), status)
             if (status%code == 0) call check_finite('inv2r', i, inv2r(i), status)
+            if (status%code == 0) call check_order(y, i, status)
             if (status%code /= 0) return
-            if (i > 1) then
-                if (y(i) <= before) then
-                    call set_status(status, st_not_increasing, 'y(' // trim(count_text(i)) // &
-                                    ') of the gap must be above the one before, got ' // &
-                                    trim(number_text(y(i))))
-                    return
-                end if
-            end if
-            before = y(i)
         end do
         if (.not. present(inclination)) return
+        if (are_finite(inclination)) return
         do i = 1, n
             call check_finite('inclination', i, inclination(i), status)
             if (status%code /= 0) return
         end do
     end subroutine check_gap_points
+
+    !> Are all of them numbers? Without a stop at the first that is none, several at a time.
+    pure logical function are_finite(values)
+        real(wp), intent(in) :: values(:)
+
+        are_finite = count(.not. ieee_is_finite(values)) == 0
+    end function are_finite
+
+    pure subroutine check_order(y, i, status)
+        real(wp), intent(in) :: y(:)
+        integer, intent(in) :: i
+        type(status_t), intent(inout) :: status
+
+        if (i == 1) return
+        if (y(i) <= y(i - 1)) &
+            call set_status(status, st_not_increasing, 'y(' // trim(count_text(i)) // &
+                            ') of the gap must be above the one before, got ' // &
+                            trim(number_text(y(i))))
+    end subroutine check_order
 
     pure subroutine check_finite(name, i, value, status)
         character(len=*), intent(in) :: name
