@@ -14,7 +14,7 @@
 !> and its curve is made from the other's: so the two curves agree to the last digit.
 module faststrip_geometry_gap_curve
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_halvings
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_workspace_too_small, st_bad_argument
     use faststrip_numerics_reversal, only: reverse, reverse_negated, reverse_exchanged
@@ -569,36 +569,40 @@ contains
         node = next_valley(curve%blocks, curve%h_node(:curve%n_pieces + 1), from, level)
     end function valley_below
 
-    !> Where monotone piece j crosses a level that its two ends enclose.
+    !> Where monotone piece j crosses a level that its two ends enclose: by Newton's steps, halvings
+    !> where they leave what encloses the crossing.
     pure real(wp) function crossing(curve, j, level) result(y)
         type(gap_curve_t), intent(in) :: curve
         integer, intent(in) :: j
         real(wp), intent(in) :: level
 
         integer :: i, k
-        real(wp) :: low, high, y0, dy, t, f
+        real(wp) :: low, high, dy, c1, c2, c3, t, before, f, slope
         logical :: rising
 
         low = curve%y_node(j)
         high = curve%y_node(j + 1)
         i = interval_of(curve, 0.5_wp*(low + high))
-        y0 = curve%y(i)
-        dy = curve%y(i + 1) - y0
-        low = (low - y0)/dy
-        high = (high - y0)/dy
+        dy = curve%y(i + 1) - curve%y(i)
+        call find_cubic(curve, i, c1, c2, c3)
+        low = (low - curve%y(i))/dy
+        high = (high - curve%y(i))/dy
         rising = curve%h_node(j + 1) > curve%h_node(j)
-        t = 0.5_wp*(low + high)
-        do k = 1, most_halvings
-            t = 0.5_wp*(low + high)
-            f = height(curve, i, t) - level
+        t = low + (high - low)*((level - curve%h_node(j))/(curve%h_node(j + 1) - curve%h_node(j)))
+        do k = 1, most_steps
+            f = (curve%h(i) - level) + t*(c1 + t*(c2 + t*c3))
+            slope = c1 + t*(2.0_wp*c2 + 3.0_wp*t*c3)
             if ((f > 0.0_wp) .eqv. rising) then
                 high = t
             else
                 low = t
             end if
-            if (high - low <= epsilon(1.0_wp)*max(abs(low), abs(high))) exit
+            before = t
+            t = 0.5_wp*(low + high)
+            if (abs(f) < merge(slope, -slope, rising)*(high - low)) t = before - f/slope
+            if (abs(t - before) <= epsilon(1.0_wp)*max(abs(low), abs(high))) exit
         end do
-        y = y0 + t*dy
+        y = curve%y(i) + t*dy
     end function crossing
 
     !> The first point at or to the right of a position: 1 to n + 1.
@@ -653,12 +657,24 @@ contains
         integer, intent(in) :: i
         real(wp), intent(in) :: t
 
-        real(wp) :: dy, secant, c1, c3
+        real(wp) :: c1, c2, c3
+
+        call find_cubic(curve, i, c1, c2, c3)
+        h = curve%h(i) + t*(c1 + t*(c2 + t*c3))
+    end function height
+
+    !> The cubic of interval i over its left point: coefficients of the powers of t.
+    pure subroutine find_cubic(curve, i, c1, c2, c3)
+        type(gap_curve_t), intent(in) :: curve
+        integer, intent(in) :: i
+        real(wp), intent(out) :: c1, c2, c3
+
+        real(wp) :: dy, secant
 
         dy = curve%y(i + 1) - curve%y(i)
         secant = curve%h(i + 1) - curve%h(i)
         c1 = curve%slope_from(i)*dy
         c3 = (curve%slope_from(i) + curve%slope_to(i))*dy - 2.0_wp*secant
-        h = curve%h(i) + t*(c1 + t*((secant - c1 - c3) + t*c3))
-    end function height
+        c2 = secant - c1 - c3
+    end subroutine find_cubic
 end module faststrip_geometry_gap_curve
