@@ -89,7 +89,7 @@ contains
         logical, intent(out) :: any_torn      !! is one?
 
         integer :: k
-        logical :: any_rough ! is there one more for `compare_one_side` to begin with?
+        logical :: any_rough ! does any c jump?
 
         do k = 2, n - 1
             c(k) = 2.0_wp*(secants(k) - secants(k - 1))/(x(k + 1) - x(k - 1))
@@ -113,12 +113,12 @@ contains
         end do
         if (.not. (any_torn .or. any_rough)) return
         do k = n - 1, 2, -1
-            if (is_torn(k + 1) .and. .not. is_torn(k)) &
-                call look_at(n, x, y, secants, c, k, excess, is_torn)
+            if (.not. is_torn(k + 1)) cycle
+            if (.not. is_torn(k)) call look_at(n, x, y, secants, c, k, excess, is_torn)
         end do
         call let_arcs_be(n, x, c, excess, is_torn)
-        call compare_one_side(n, 1, x, y, secants, c, is_torn)
-        call compare_one_side(n, -1, x, y, secants, c, is_torn)
+        call compare_one_side(n, 1, any_rough, x, y, secants, c, is_torn)
+        call compare_one_side(n, -1, any_rough, x, y, secants, c, is_torn)
         any_torn = any(is_torn)
     end subroutine find_torn_points
 
@@ -193,22 +193,25 @@ contains
 
     !> Points of a rough stretch as seen from the smooth side before it: the last points that are
     !> not torn foretell, until others agree with them, or with each other.
-    pure subroutine compare_one_side(n, step, x, y, secants, c, is_torn)
-        integer, intent(in) :: n, step ! 1 from the left, -1 from the right
+    pure subroutine compare_one_side(n, step, any_rough, x, y, secants, c, is_torn)
+        integer, intent(in) :: n, step   ! 1 from the left, -1 from the right
+        logical, intent(in) :: any_rough ! may any c jump?
         real(wp), intent(in) :: x(n), y(n), secants(n), c(n)
         logical, intent(inout) :: is_torn(n)
 
         type(side_t) :: before, after
         real(wp) :: change
-        integer :: k, i
+        integer :: k
         logical :: goes_on ! was the point before torn, as seen from `before`?
 
         goes_on = .false.
-        do i = 2, n - 1
-            k = merge(i, n + 1 - i, step > 0)
-            if (is_torn(k)) cycle
+        do k = merge(2, n - 1, step > 0), merge(n - 1, 2, step > 0), step
             ! The point before is as the side before, unless it is torn.
-            if (.not. (goes_on .or. is_torn(k - step) .or. jumps(c(k - step), c(k)))) cycle
+            if (.not. (goes_on .or. is_torn(k - step))) then
+                if (.not. any_rough) cycle
+                if (.not. jumps(c(k - step), c(k))) cycle
+            end if
+            if (is_torn(k)) cycle
             if (.not. goes_on) before = foretold(n, x, c, is_torn, .true., k, -step)
             goes_on = .false.
             if (.not. before%is_known) cycle

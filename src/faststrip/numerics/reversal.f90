@@ -58,8 +58,15 @@ contains
     pure subroutine reverse_negated(values)
         real(wp), intent(inout) :: values(:) !! turned round, signs changed
 
-        call reverse_reals(values)
-        values = -values
+        real(wp) :: kept
+        integer :: i, n
+
+        n = size(values)
+        do i = 1, (n + 1)/2
+            kept = -values(i)
+            values(i) = -values(n + 1 - i)
+            values(n + 1 - i) = kept
+        end do
     end subroutine reverse_negated
 
     !> Turn two arrays round as a mirror does with left and right edges: the left ones become
