@@ -30,7 +30,7 @@ module faststrip_command_batch_gap_cache
     !> A file and its gap.
     type :: kept_t
         character(len=:), allocatable :: path
-        type(ready_gap_t) :: ready
+        type(ready_gap_t), allocatable :: ready
         integer(int64) :: used = 0 ! when it was asked for last
         integer :: next = 0        ! of the same list; 0: none
     end type kept_t
@@ -49,7 +49,7 @@ module faststrip_command_batch_gap_cache
     !> A thread's own gap: the one it made last and could not leave.
     type :: own_gap_t
         private
-        type(ready_gap_t) :: ready
+        type(ready_gap_t), allocatable :: ready ! none: it was left
         integer(int64) :: made = 0
     end type own_gap_t
 
@@ -106,7 +106,7 @@ contains
         end if
         call read_gap_file(path, gap, status)
         if (is_error(status)) return
-        own%ready = ready_gap_t()
+        if (.not. allocated(own%ready)) allocate (own%ready)
         call make_ready(smoothing, gap, own%ready, status)
         if (is_error(status)) return
         !$omp critical (gap_cache)
@@ -143,11 +143,11 @@ contains
         end do
     end subroutine tidy_cache
 
-    ! Keep one more gap if there is room; the first one always.
+    ! Keep one more gap, without copying, if there is room; the first one always.
     subroutine keep(cache, path, ready, i)
         type(gap_cache_t), intent(inout) :: cache
         character(len=*), intent(in) :: path
-        type(ready_gap_t), intent(inout) :: ready
+        type(ready_gap_t), allocatable, intent(inout) :: ready ! gone if it is kept
         integer, intent(out) :: i ! its place; 0: there is no room
 
         i = 0
@@ -158,7 +158,7 @@ contains
         cache%made = cache%made + 1
         cache%points = cache%points + ready%curve%n
         cache%kept(i)%path = path
-        cache%kept(i)%ready = ready
+        call move_alloc(ready, cache%kept(i)%ready)
         cache%kept(i)%ready%id = cache%made
         cache%kept(i)%used = cache%asked
         call enter(cache, i)

@@ -125,13 +125,16 @@ contains
         if (smoothing > 0.0_wp) then
             call smooth_gap(gap, smoothing, smooth, ready%change, status)
         else
-            smooth = gap
             call check_gap(gap, status)
         end if
         if (.not. is_error(status)) call reserve_gap_curve(ready%curve, size(gap%y), status)
         if (is_error(status)) return
         call hold_environment(environment)
-        call set_gap_curve(ready%curve, smooth, status)
+        if (allocated(smooth%y)) then
+            call set_gap_curve(ready%curve, smooth, status)
+        else
+            call set_gap_curve(ready%curve, gap, status)
+        end if
         call restore_environment(environment)
     end subroutine make_ready
 
