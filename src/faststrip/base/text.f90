@@ -6,7 +6,7 @@ module faststrip_base_text
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_decimal, only: compose_decimal, most_digits
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, message_length
+    use faststrip_base_status, only: status_t, set_status, count_text, message_length
     implicit none
     private
 
@@ -276,7 +276,7 @@ contains
         integer, intent(in) :: value           !! any
         character(len=number_length(value)) :: text !! sign and digits
 
-        write (text, '(ss, i0)') value
+        text = count_text(value)
     end function integer_text
 
     !> Record an error in a file as `<what>, got <value> (<file>:<line>)`.
