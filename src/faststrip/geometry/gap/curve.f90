@@ -245,8 +245,7 @@ contains
         pure subroutine take_middle(values)
             real(wp), intent(inout) :: values(:)
 
-            values(kept) = values(i)
-            if (first < i) values(kept) = 0.5_wp*(values(first) + values(i))
+            values(kept) = 0.5_wp*(values(first) + values(i))
         end subroutine take_middle
     end subroutine join_doubles
 
@@ -263,20 +262,21 @@ contains
         curve%version = next_version(curve)
         call check_capacity(curve, n, status)
         if (is_error(status)) return
-        curve%y(:n) = y
-        curve%h(:n) = h
-        curve%inv2r(:n) = inv2r
-        curve%inclination_is_known = present(inclination)
-        if (present(inclination)) curve%inclination(:n) = inclination
-        call join_doubles(curve, n)
-        side = side_of(curve%y(:n), curve%h(:n), curve%inv2r(:n))
+        side = side_of(y, h, inv2r)
         curve%is_even = side == 0
+        curve%inclination_is_known = present(inclination)
         if (side < 0) then
-            call reverse_negated(curve%y(:n))
-            call reverse(curve%h(:n))
-            call reverse(curve%inv2r(:n))
-            if (curve%inclination_is_known) call reverse_negated(curve%inclination(:n))
+            curve%y(:n) = -y(n:1:-1)
+            curve%h(:n) = h(n:1:-1)
+            curve%inv2r(:n) = inv2r(n:1:-1)
+            if (present(inclination)) curve%inclination(:n) = -inclination(n:1:-1)
+        else
+            curve%y(:n) = y
+            curve%h(:n) = h
+            curve%inv2r(:n) = inv2r
+            if (present(inclination)) curve%inclination(:n) = inclination
         end if
+        call join_doubles(curve, n)
         curve%least_inv2r = flattest_ratio*usual_inv2r(curve%inv2r(:n))
         call torn_spline_setup(curve%y(:n), curve%h(:n), curve%slope_from(:n), &
                                curve%slope_to(:n), curve%bend(:n), curve%is_torn(:n), &
