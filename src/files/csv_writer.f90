@@ -8,7 +8,7 @@ module faststrip_files_csv_writer
     use faststrip_base_decimal, only: decompose_decimal
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, st_file_write
-    use faststrip_base_text, only: trim_blanks, integer_text
+    use faststrip_base_text, only: integer_text
     use faststrip_files_lines, only: is_folder
     use faststrip_files_stdio, only: c_fopen, c_fdopen, c_fwrite, c_fclose, c_rename, c_remove
     use faststrip_files_temporary, only: most_temporaries, name_temporary, find_final_path
@@ -341,12 +341,13 @@ contains
     subroutine append_quoted(writer, value)
         type(csv_writer_t), intent(inout) :: writer
         character(len=*), intent(in) :: value
+        character(len=*), parameter :: blanks = ' ' // achar(9)
         integer :: i
         logical :: needed
 
         needed = scan(value, ',"') > 0
-        if (len(value) > 0) needed = needed .or. len(trim_blanks(value)) < len(value) &
-                                     .or. value(1:1) == '#'
+        if (len(value) > 0) needed = needed .or. scan(value(1:1), '#' // blanks) > 0 &
+                                     .or. scan(value(len(value):), blanks) > 0
         if (.not. needed) then
             call append_cell(writer, value)
             return

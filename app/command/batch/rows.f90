@@ -37,6 +37,7 @@ module faststrip_command_batch_rows
         private
         integer :: of(size(case_columns)) = 0
         integer :: penetration = 0 ! 0: there is none
+        logical :: has_friction = .false. ! is there one of `friction_columns`?
     end type row_columns_t
 
 contains
@@ -62,6 +63,10 @@ contains
             call refuse_misspelt(table, trim(friction_columns(i)), friction_columns, status)
         end do
         if (is_error(status)) return
+        do i = 1, size(friction_columns)
+            columns%has_friction = columns%has_friction &
+                                   .or. column_index(table, trim(friction_columns(i))) > 0
+        end do
         do i = 1, table%n_columns
             if (.not. any(result_columns == table%names(i)%text)) cycle
             ! A table that has a column the result would add cannot be carried through.
@@ -191,6 +196,7 @@ contains
         case%material = material_t(number(3), number(3), number(4), number(4))
         case%mu = number(5)
         case%creepage = creepage_t(number(7), number(8), number(9))
-        call read_row_friction(table, 1, case%mu, case%friction, status)
+        if (columns%has_friction) &
+            call read_row_friction(table, 1, case%mu, case%friction, status)
     end subroutine read_row
 end module faststrip_command_batch_rows
