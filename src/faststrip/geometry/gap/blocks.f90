@@ -10,7 +10,7 @@ module faststrip_geometry_gap_blocks
 
     !> Nodes in a block.
     !> Tuned [nodes]. Origin: cost: a search goes through all blocks and through few of the nodes.
-    integer, parameter :: block = 64
+    integer, parameter :: block = 32
 
     !> Blocks of nodes; the arrays belong to the workspace of the curve.
     type :: gap_blocks_t
@@ -135,15 +135,17 @@ contains
 
         integer :: b
 
-        i = from
-        do while (i <= size(h))
-            b = block_of(i)
-            if (merge(blocks%high(b) >= level, blocks%low(b) < level, is_below)) then
-                do i = i, min(b*block, size(h))
-                    if ((h(i) < level) .neqv. is_below) return
+        do b = block_of(from), block_of(size(h))
+            if (is_below) then
+                if (blocks%high(b) < level) cycle
+                do i = max(from, (b - 1)*block + 1), min(b*block, size(h))
+                    if (h(i) >= level) return
                 end do
             else
-                i = b*block + 1
+                if (blocks%low(b) >= level) cycle
+                do i = max(from, (b - 1)*block + 1), min(b*block, size(h))
+                    if (h(i) < level) return
+                end do
             end if
         end do
         i = size(h) + 1
