@@ -70,7 +70,7 @@ contains
         real(wp), intent(inout) :: d_x(:)         !! dI/dx, (n)
         real(wp), intent(inout) :: d_half_length(:) !! dI/dxd, (n)
         logical, intent(in), optional :: portable !! by what any processor has; default: if need be
-        integer, intent(out) :: found             !! 1: all of them
+        integer, intent(out) :: found             !! 1 if all of them
 
         integer :: by
 

@@ -17,7 +17,7 @@ module faststrip_influence_four_lanes
 
     !> A strip and how many field points see it.
     type, bind(C) :: column_t
-        integer(c_int) :: by           !! lanes: 4 or 2
+        integer(c_int) :: by           !! lanes, 4 or 2
         integer(c_int) :: n            !! field points
         real(c_double) :: largest      !! place, mm
         real(c_double) :: half_length  !! of the strip, mm
