@@ -81,8 +81,8 @@ contains
             end if
             do k = first, last
                 width = strips%y_right(k) - strips%y_left(k)
-                rate = rate + strip_load(newton%history(k, 1), strips%half_length(k), width)
-                rest = rest + strip_load(newton%history(k, 2), strips%half_length(k), width)
+                rate = rate + strip_load(newton%other(k, 1), strips%half_length(k), width)
+                rest = rest + strip_load(newton%other(k, 2), strips%half_length(k), width)
             end do
             first = last + 1
         end do
@@ -94,7 +94,7 @@ contains
             return
         end if
         result%penetration = curve%h_lowest + depth
-        call take_pressures(depth, demand, newton%history, strips, result, status)
+        call take_pressures(depth, demand, newton%other, strips, result, status)
     end subroutine kpec_strips_solve
 
     pure subroutine keep_kpec(status)
@@ -123,7 +123,7 @@ contains
         call gap_at(curve, strips%y_right(last), h_to, inv2r)
         call lowest_between(curve, strips%y_left(first), h_from, strips%y_right(last), h_to, y, &
                             lowest)
-        associate (u => newton%history(first:last, 1), v => newton%history(first:last, 2), &
+        associate (u => newton%other(first:last, 1), v => newton%other(first:last, 2), &
                    places => newton%step(:n))
             places = 0.5_wp*(strips%y_left(first:last) + strips%y_right(first:last))
             do k = 1, n

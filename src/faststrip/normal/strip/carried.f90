@@ -25,12 +25,9 @@ module faststrip_normal_strip_carried
     implicit none
     private
 
-    public :: carried_t, reserve_carried, carry, carries, carried_change, length_changes
+    public :: carried_t, reserve_carried, carry, carries, carried_change
     public :: carried_residual, carried_jacobian
 
-    ! Tuned [strips]: more are not carried. Origin: chosen for memory; their evaluations are far
-    ! from what a step costs in linear algebra.
-    integer, parameter :: most_carried = 200
     ! Tuned [1]: of a distance, for derivatives in it. Origin: half the digits of the tips' numbers.
     real(wp), parameter :: difference = 1.0e-4_wp
 
@@ -65,7 +62,7 @@ contains
 
         integer :: n
 
-        n = min(capacity, most_carried)
+        n = capacity
         if (carried%most >= n) return
         carried%known = .false.
         if (carried%most > 0) &
@@ -90,15 +87,14 @@ contains
 
     !> Evaluate all numbers of the strips where they are, exactly.
     pure subroutine carry(carried, strips, patches)
-        type(carried_t), intent(inout) :: carried    !! known afterwards, if there is room
+        type(carried_t), intent(inout) :: carried    !! known afterwards
         type(pass_strips_t), intent(inout) :: strips !! its centre lines are set, nothing else
         type(patches_t), intent(in) :: patches       !! those of the strips
 
         integer :: n, s, p, first
 
         n = strips%n
-        carried%known = n <= carried%most
-        if (.not. carried%known) return
+        carried%known = .true.
         carried%n = n
         carried%n_patches = patches%n
         first = 1
@@ -190,25 +186,6 @@ contains
             first = first + carried%n_strips(p)
         end do
     end function carried_change
-
-    !> The relative changes of all lengths, beside the growth of their patches.
-    pure subroutine length_changes(carried, strips, change)
-        type(carried_t), intent(in) :: carried    !! known
-        type(pass_strips_t), intent(in) :: strips !! as many
-        real(wp), intent(inout) :: change(:)      !! (n)
-
-        real(wp) :: sigma
-        integer :: p, first, last
-
-        last = 0
-        do p = 1, carried%n_patches
-            first = last + 1
-            last = last + carried%n_strips(p)
-            sigma = growth(carried, strips, p, first)
-            change(first:last) = strips%half_length(first:last) &
-                                 /(sigma*carried%half_length(first:last)) - 1.0_wp
-        end do
-    end subroutine length_changes
 
     !> As `strip_residual`, by carried numbers.
     pure subroutine carried_residual(carried, strips, compliance, demand, residual)

@@ -4,7 +4,6 @@
 module faststrip_normal_strip_coupled_equations
     use faststrip_base_kinds, only: wp
     use faststrip_numerics_lu, only: lu_factor
-    use faststrip_normal_strip_equations, only: strip_residual, strip_jacobian
     use faststrip_normal_strip_carried, only: carried_residual, carried_jacobian
     use faststrip_normal_strip_patches, only: patches_t
     use faststrip_normal_strip_ends, only: end_width
@@ -24,21 +23,16 @@ module faststrip_normal_strip_coupled_equations
 contains
 
     !> Residuals of all equations for the strips where they are.
-    pure subroutine coupled_residual(workspace, compliance, demand, ends, by_carried, residual)
+    pure subroutine coupled_residual(workspace, compliance, demand, ends, residual)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips, started
         real(wp), intent(in) :: compliance             !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand           !! load or penetration
         type(end_t), intent(in) :: ends(:)             !! of all patches
-        logical, intent(in) :: by_carried              !! influence coefficients, or exact ones
         real(wp), intent(inout), contiguous :: residual(:) !! (2n + 1 + size(ends))
 
         integer :: e
 
-        if (by_carried) then
-            call carried_residual(workspace%carried, workspace%strips, compliance, demand, residual)
-        else
-            call strip_residual(workspace%strips, compliance, demand, residual)
-        end if
+        call carried_residual(workspace%carried, workspace%strips, compliance, demand, residual)
         do e = 1, size(ends)
             residual(2*workspace%strips%n + 1 + e) = wanted(workspace, ends(e))
         end do
@@ -47,14 +41,13 @@ contains
     !> Residuals, into the step of the workspace, and the factored Jacobian, analytic for given
     !> edges; the columns of the ends are differences of residuals.
     pure subroutine coupled_factors(workspace, compliance, demand, patches, ends, p_scale, &
-                                    by_carried, singular)
+                                    singular)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips, started
         real(wp), intent(in) :: compliance   !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand !! load or penetration
         type(patches_t), intent(in) :: patches !! whose strips these are
         type(end_t), intent(in) :: ends(:)   !! of all patches
         real(wp), intent(in) :: p_scale      !! unit of the pressures' changes, MPa
-        logical, intent(in) :: by_carried    !! influence coefficients, or exact ones
         logical, intent(out) :: singular     !! is the Jacobian?
 
         type(patches_t) :: moved
@@ -64,14 +57,9 @@ contains
         n = workspace%strips%n
         m = 2*n + 1 + size(ends)
         associate (jacobian => workspace%newton%jacobian, residual => workspace%newton%step, &
-                   other => workspace%newton%history(:, 1))
-            if (by_carried) then
-                call carried_jacobian(workspace%carried, workspace%strips, compliance, demand, &
-                                      p_scale, jacobian, residual)
-            else
-                call strip_jacobian(workspace%strips, compliance, demand, p_scale, jacobian, &
-                                    residual)
-            end if
+                   other => workspace%newton%other(:, 1))
+            call carried_jacobian(workspace%carried, workspace%strips, compliance, demand, &
+                                  p_scale, jacobian, residual)
             jacobian(2*n + 2:m, :m) = 0.0_wp
             do e = 1, size(ends)
                 residual(2*n + 1 + e) = wanted(workspace, ends(e))
@@ -100,12 +88,8 @@ contains
                     moved%at(ends(e)%patch)%y_to = moved%at(ends(e)%patch)%y_to - away
                 end if
                 call position_edges(workspace, moved)
-                if (by_carried) then
-                    call carried_residual(workspace%carried, workspace%strips, compliance, demand, &
-                                          other)
-                else
-                    call strip_residual(workspace%strips, compliance, demand, other)
-                end if
+                call carried_residual(workspace%carried, workspace%strips, compliance, demand, &
+                                      other)
                 jacobian(:2*n + 1, 2*n + 1 + e) = (other(:2*n + 1) - residual(:2*n + 1))/difference
                 call position_edges(workspace, patches)
             end do

@@ -13,15 +13,12 @@
 !> - **N2** The displacement at the tip is the exact integral, not the quotient (22)-(24).
 module faststrip_normal_strip_equations
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
-    use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
     use faststrip_normal_strip_pass, only: pass_strips_t
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private
 
-    public :: add_cost, cost_work, step_work, strip_residual
-    public :: strip_jacobian, mark_leaving_strips
+    public :: count_step, count_evaluation, cost_work, step_work, mark_leaving_strips
     public :: start_residual, start_jacobian, add_column, end_jacobian
 
     !> A strip this much shorter than its longer neighbour is on its way out of the contact;
@@ -34,24 +31,26 @@ module faststrip_normal_strip_equations
 
 contains
 
-    !> Count one step with n strips and m equations.
-    pure subroutine add_cost(cost, n, m, factored, residuals, by_carried)
+    !> Count one step of m equations.
+    pure subroutine count_step(cost, m, factored)
         type(cost_t), intent(inout) :: cost !! added to
-        integer, intent(in) :: n                !! strips
-        integer, intent(in) :: m                !! equations
-        logical, intent(in) :: factored         !! was a Jacobian factored?
-        integer, intent(in) :: residuals        !! residuals taken besides
-        logical, intent(in), optional :: by_carried !! if it is there, none was computed
+        integer, intent(in) :: m            !! equations
+        logical, intent(in) :: factored     !! was a Jacobian factored?
 
-        if (.not. present(by_carried)) cost%iterations = cost%iterations + 1
-        cost%values = cost%values + 2*n*n*residuals
+        cost%iterations = cost%iterations + 1
         cost%operations = cost%operations + 2.0_wp*real(m, wp)**2
         if (.not. factored) return
         cost%factorings = cost%factorings + 1
         cost%operations = cost%operations + 2.0_wp/3.0_wp*real(m, wp)**3
-        if (present(by_carried)) return
+    end subroutine count_step
+
+    !> Count an evaluation of all influence coefficients of n strips, with their derivatives.
+    pure subroutine count_evaluation(cost, n)
+        type(cost_t), intent(inout) :: cost !! added to
+        integer, intent(in) :: n            !! strips
+
         cost%gradients = cost%gradients + 2*n*n
-    end subroutine add_cost
+    end subroutine count_evaluation
 
     !> What was spent, in influence coefficients: as many could have been computed in that time. One
     !> with its derivatives counts three, and 100 operations of the linear algebra count one.
@@ -62,72 +61,16 @@ contains
                + operation_cost*cost%operations
     end function cost_work
 
-    !> The same for one step of n strips with a Jacobian.
+    !> The same for an evaluation and one step of n strips with a Jacobian.
     pure real(wp) function step_work(n) result(work)
         integer, intent(in) :: n !! strips
 
         type(cost_t) :: cost
 
-        call add_cost(cost, n, 2*n + 1, .true., 0)
+        call count_evaluation(cost, n)
+        call count_step(cost, 2*n + 1, .true.)
         work = cost_work(cost)
     end function step_work
-
-    !> Residuals of the 2n + 1 equations, over the penetration and the load: centre lines, tips,
-    !> load (or zero).
-    pure subroutine strip_residual(strips, compliance, demand, residual)
-        type(pass_strips_t), intent(inout) :: strips !! its work changes, nothing else
-        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
-        type(demand_t), intent(in) :: demand         !! load or penetration
-        real(wp), intent(inout), contiguous :: residual(:)       !! (2n + 1)
-
-        integer :: n, s
-        real(wp) :: scale
-
-        n = strips%n
-        call start_residual(strips, demand, residual)
-        scale = compliance/strips%penetration
-        associate (y_left => strips%y_left, y_right => strips%y_right, y => strips%y, &
-                   p0 => strips%p0, half_length => strips%half_length, &
-                   influence => strips%influence)
-            do s = 1, n
-                call center_influence_column(half_length(s), y_left(s), y_right(s), y(:n), &
-                                             influence(:n, 1))
-                residual(:n) = residual(:n) - scale*p0(s)*influence(:n, 1)
-                call tip_influence_column(half_length(s), y_left(s), y_right(s), &
-                                          half_length(:n), y(:n), influence(:n, 1))
-                residual(n + 1:2*n) = residual(n + 1:2*n) - scale*p0(s)*influence(:n, 1)
-            end do
-        end associate
-    end subroutine strip_residual
-
-    !> The same, and the Jacobian of its negative in p0/p_scale, ln xd, ln D.
-    pure subroutine strip_jacobian(strips, compliance, demand, p_scale, jacobian, residual)
-        type(pass_strips_t), intent(inout) :: strips !! its work changes, nothing else
-        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
-        type(demand_t), intent(in) :: demand         !! load or penetration
-        real(wp), intent(in) :: p_scale              !! unit of the pressures' changes, MPa
-        real(wp), intent(inout), contiguous :: jacobian(:, :)    !! first 2n + 1 rows and columns
-        real(wp), intent(inout), contiguous :: residual(:)       !! (2n + 1)
-
-        integer :: n, s
-
-        n = strips%n
-        call start_residual(strips, demand, residual)
-        call start_jacobian(strips, jacobian)
-        associate (y_left => strips%y_left, y_right => strips%y_right, y => strips%y(:n), &
-                   half_length => strips%half_length(:n), influence => strips%influence(:n, :))
-            do s = 1, n
-                call center_influence_column_gradient(half_length(s), y_left(s), y_right(s), y, &
-                                                      influence(:, 1), influence(:, 2))
-                call tip_influence_column_gradient(half_length(s), y_left(s), y_right(s), &
-                                                   half_length, y, influence(:, 3), &
-                                                   influence(:, 5), influence(:, 4))
-                call add_column(strips, s, strips%influence, compliance/strips%penetration, &
-                                p_scale, jacobian, residual)
-            end do
-        end associate
-        call end_jacobian(strips, demand, p_scale, jacobian)
-    end subroutine strip_jacobian
 
     !> The part of the Jacobian that no strip's influence has: what a tip's own height adds, and the
     !> penetration's column.

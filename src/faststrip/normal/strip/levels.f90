@@ -16,7 +16,8 @@ module faststrip_normal_strip_levels
     use faststrip_normal_strip_figures, only: summarize
     use faststrip_normal_strip_patches, only: fewest_strips
     use faststrip_normal_strip_row, only: find_patches
-    use faststrip_normal_strip_settle, only: level_t, settling_t, settle
+    use faststrip_normal_strip_settle, only: level_t, settling_t, settle_together, &
+                                             settle_in_turn
     use faststrip_normal_strip_start, only: start_patches, resume_patches
     use faststrip_normal_strip_state, only: strip_workspace_t
     use faststrip_normal_types, only: normal_result_t, demand_t
@@ -32,20 +33,16 @@ module faststrip_normal_strip_levels
     integer, parameter :: strips_auto = 0
     integer, parameter :: strips_auto_most = 81
 
-    ! Tuned [strips]. Origin: chosen for the time of a cold start.
-    integer, parameter :: scout_strips = 7   ! strips that find the patches
-    ! Tuned [strips]. Origin: chosen: scouting would cost as much.
-    integer, parameter :: fewest_scouted = 10 ! fewer strips find the patches themselves
-    ! Tuned [strips]. Origin: chosen for the time of a cold start.
-    integer, parameter :: first_level = 15   ! strips that refine them
-    ! Tuned [strips]. Origin: chosen for the time of a cold start.
-    integer, parameter :: most_at_once = 20  ! more strips than these are reached by further levels,
-    ! Tuned [1]. Origin: chosen for the time of a cold start.
-    integer, parameter :: level_factor = 3   ! each with at most so many times the strips
+    ! Tuned [strips]: fewer than were asked, where those do not converge. Origin: chosen.
+    integer, parameter :: few_strips = 7
+    ! Tuned [strips]: first of many strips; more than these are reached by way of others. Origin:
+    ! chosen for the time of a cold start.
+    integer, parameter :: first_level = 15, most_at_once = 20
+    ! Tuned [1]: strips of a level over those of the one before, at most. Origin: chosen for the
+    ! time of a cold start.
+    integer, parameter :: level_factor = 3
     ! Tuned [levels]: Most levels. Origin: safeguard: more than level_factor needs for any number.
     integer, parameter :: most_levels = 9
-    ! Tuned [1]. Origin: far below what the next level changes.
-    real(wp), parameter :: coarse_tolerance = 1.0e-3_wp ! of the scouting strips
     ! Tuned [strips]: Numbers of strips tried. Origin: chosen: each about 1.6 times the last.
     integer, parameter :: auto_levels(5) = [15, 27, 41, 61, strips_auto_most]
     ! Tuned [strips]. Origin: chosen.
@@ -56,12 +53,12 @@ module faststrip_normal_strip_levels
     ! Tuned [strips]. Origin: chosen for time and errors of the lattice.
     integer, parameter :: most_fallback_strips = 31 ! its cost rises steeply, its accuracy does not
 
-    ! What a level starts from. Given: numbers of kinds.
-    integer, parameter :: from_nothing = 1
-    integer, parameter :: from_last_solution = 2 ! of the workspace: a warm start
-    integer, parameter :: from_coarser = 3       ! the level before
-    integer, parameter :: from_row = 4           ! patches found by a row of fixed cells
-    integer, parameter :: by_passes = 5          ! nothing, pass by pass
+    ! The ways to a solution, in the order in which they are tried. Given: numbers of kinds.
+    integer, parameter :: from_last = 0   ! solution of the workspace
+    integer, parameter :: from_level = 1  ! set of a Hertz ellipse
+    integer, parameter :: from_row = 2    ! of cells
+    integer, parameter :: row_in_turn = 3 ! the same, strips and ends in turn
+    integer, parameter :: few_first = 4   ! few strips from a level set, in turn
 
     !> What the user chooses.
     type :: strip_options_t
@@ -77,26 +74,12 @@ module faststrip_normal_strip_levels
     type :: plan_t
         integer :: n = 0                !! how many levels
         integer :: strips(most_levels) = 0
-        ! Given: the first level only finds the patches.
-        integer :: first_counted = 2    !! the first whose solution may be the answer
         logical :: is_auto = .false.    !! is any of them enough?
     end type plan_t
 
-    !> Where a solution stands among its levels.
-    type :: way_t
-        ! Given: the beginning.
-        integer :: level = 1             !! of the plan
-        integer :: start = from_nothing  !! what it starts from
-        integer :: n_settled = 0         !! strips of the last level that counts and settled
-        integer :: row_level = 0         !! the highest that started from a row
-        integer :: passes_level = 1      !! that passes are to try
-        integer :: passed_level = 0      !! the highest that was tried by passes
-        logical :: ended = .false.       !! is nothing left to try?
-    end type way_t
-
 contains
 
-    !> Solve by levels of strips, or else by the lattice.
+    !> Solve by strips, or else by the lattice.
     subroutine solve_by_levels(workspace, compliance, demand, options, strips, result, n_settled, &
                                all_settled, status)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
@@ -109,42 +92,29 @@ contains
         logical, intent(out) :: all_settled  !! did as many as were asked settle?
         type(status_t), intent(inout) :: status !! those of the lattice
 
-        type(plan_t) :: plan
-        type(way_t) :: way
+        type(plan_t) :: plan, used
         type(settling_t) :: settling
-        type(normal_result_t) :: coarser
-        logical :: found, in_doubt
+        integer :: way, first
+        logical :: in_doubt, found
 
         call forget_lattice_errors(workspace%lattice)
         plan = level_plan(options%strips_per_patch)
-        in_doubt = .false.
-        if (options%warm_start .and. workspace%old%n > 0) then
-            way%start = from_last_solution
-            call resume_patches(workspace, demand, settling%patches, settling%penetration)
-            in_doubt = any(workspace%old%at(:workspace%old%n)%meets_next)
-            way%level = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
-        end if
-        do while (way%level <= plan%n)
-            call begin(workspace, compliance, demand, way%start, settling, in_doubt, found)
-            coarser = result
-            if (found) call settle(workspace, compliance, demand, &
-                                   level_of(plan, way, in_doubt, options%tolerance), settling, &
-                                   strips, result)
-            settling%settled = found .and. settling%settled
-            if (.not. settling%settled) then
-                call try_else(options%strips_per_patch, plan, way)
-                if (way%ended) exit
-                cycle
+        n_settled = 0
+        settling%settled = .false.
+        do way = merge(from_last, from_level, options%warm_start .and. workspace%old%n > 0), few_first
+            call begin(workspace, compliance, demand, way, settling, in_doubt, found)
+            if (.not. found) cycle
+            used = plan
+            first = 1
+            if (way == from_last) then
+                first = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
+            else if (way == few_first) then
+                used = with_few(plan)
             end if
-            if (way%level >= plan%first_counted) way%n_settled = plan%strips(way%level)
-            way%start = from_coarser
-            way%level = way%level + 1
-            if (.not. plan%is_auto .or. way%level <= plan%first_counted + 1) cycle
-            if (.not. is_resolved(workspace, compliance, strips, result, &
-                                  options%resolution_limit)) cycle
-            if (is_enough(coarser, result)) exit
+            call climb(workspace, compliance, demand, options, used, first, way, in_doubt, &
+                       settling, strips, result, n_settled)
+            if (settling%settled .or. (plan%is_auto .and. n_settled > 0)) exit
         end do
-        n_settled = way%n_settled
         all_settled = settling%settled
         result%iterations = result%cost%iterations
         if (n_settled == 0) then
@@ -160,94 +130,90 @@ contains
         if (.not. all_settled) workspace%old%n = 0
     end subroutine solve_by_levels
 
-    !> What is tried after a level that did not converge.
-    pure subroutine try_else(strips_per_patch, plan, way)
-        integer, intent(in) :: strips_per_patch ! asked
-        type(plan_t), intent(inout) :: plan
-        type(way_t), intent(inout) :: way
-
-        integer :: row_level
-
-        if (way%start == from_last_solution) then
-            way%start = from_nothing
-            way%level = 1
-            return
-        end if
-        if (way%start == from_coarser) then
-            way%ended = plan%strips(way%level) > most_at_once
-            way%passes_level = way%level
-        end if
-        row_level = max(way%level, plan%first_counted)
-        if (way%start /= by_passes .and. way%row_level < row_level) then
-            way%start = from_row
-            way%level = row_level
-            way%row_level = row_level
-        else if (way%start /= by_passes .and. way%passed_level < way%passes_level) then
-            way%start = by_passes
-            way%level = way%passes_level
-            way%passed_level = way%passes_level
-        else
-            way%level = plan%n
-            if (way%n_settled == 0) call add_level(strips_per_patch, plan)
-            way%ended = way%level == plan%n
-            way%start = from_row
-            way%level = plan%n
-            way%row_level = plan%n
-        end if
-    end subroutine try_else
-
-    !> Patches for a level that does not start from strips.
-    subroutine begin(workspace, compliance, demand, start, settling, in_doubt, found)
+    !> What a way starts from; but for the last solution, no bit of one before is left.
+    subroutine begin(workspace, compliance, demand, way, settling, in_doubt, found)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
-        integer, intent(in) :: start             ! what the level starts from
+        integer, intent(in) :: way
         type(settling_t), intent(inout) :: settling
-        logical, intent(inout) :: in_doubt       ! do patches split and join?
-        logical, intent(out) :: found            ! are there patches?
+        logical, intent(out) :: in_doubt ! do patches split and join?
+        logical, intent(out) :: found    ! are there patches?
 
         found = .true.
-        if (start == from_nothing .or. start == by_passes) then
-            call start_patches(workspace%curve, compliance, demand, settling%patches, &
-                               settling%penetration)
-            workspace%old%n = 0
-            workspace%carried%known = .false.
-            in_doubt = .false.
-        else if (start == from_row) then
-            call find_patches(workspace, compliance, demand, settling%patches, &
-                              settling%penetration, found)
-            in_doubt = .true.
+        if (way == from_last) then
+            in_doubt = any(workspace%old%at(:workspace%old%n)%meets_next)
+            call resume_patches(workspace, demand, settling%patches, settling%penetration)
+            return
         end if
+        call start_patches(workspace%curve, compliance, demand, settling%patches, &
+                           settling%penetration)
+        workspace%old%n = 0
+        workspace%carried%known = .false.
+        workspace%newton%kept = .false.
+        in_doubt = way == from_row .or. way == row_in_turn
+        if (in_doubt) call find_patches(workspace, compliance, demand, settling%patches, &
+                                        settling%penetration, found)
     end subroutine begin
+
+    !> Solve with the numbers of strips of a plan, each from the one before.
+    subroutine climb(workspace, compliance, demand, options, plan, first, way, in_doubt, settling, &
+                     strips, result, n_settled)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(demand_t), intent(in) :: demand
+        type(strip_options_t), intent(in) :: options
+        type(plan_t), intent(in) :: plan
+        integer, intent(in) :: first      ! level
+        integer, intent(in) :: way        ! what it starts from
+        logical, intent(in) :: in_doubt   ! do patches split and join?
+        type(settling_t), intent(inout) :: settling ! with the patches to start from
+        type(contact_strips_t), intent(inout) :: strips
+        type(normal_result_t), intent(inout) :: result
+        integer, intent(inout) :: n_settled ! strips of the last level that settled
+
+        type(level_t) :: level
+        type(normal_result_t) :: coarser
+        integer :: i
+
+        do i = first, plan%n
+            level = level_t(plan%strips(i), maxval(plan%strips(:plan%n)), options%tolerance, &
+                            way /= from_level .or. i > first, in_doubt)
+            coarser = result
+            settling%settled = .false.
+            if (i > first .or. way < row_in_turn) &
+                call settle_together(workspace, compliance, demand, level, settling, strips, result)
+            if (.not. settling%settled .and. (i > first .or. way >= row_in_turn)) &
+                call settle_in_turn(workspace, compliance, demand, level, settling, strips, result)
+            if (.not. settling%settled) return
+            n_settled = plan%strips(i)
+            if (.not. plan%is_auto .or. i <= first) cycle
+            if (.not. is_resolved(workspace, compliance, strips, result, &
+                                  options%resolution_limit)) cycle
+            if (is_enough(coarser, result)) return
+        end do
+    end subroutine climb
+
+    !> The plan with few strips before.
+    pure type(plan_t) function with_few(plan)
+        type(plan_t), intent(in) :: plan
+
+        with_few = plan
+        with_few%n = plan%n + 1
+        with_few%strips(1) = min(few_strips, plan%strips(1))
+        with_few%strips(2:with_few%n) = plan%strips(:plan%n)
+    end function with_few
 
     !> The level that a solution is near enough to be the start of.
     pure integer function warm_level(plan, strips)
         type(plan_t), intent(in) :: plan
         integer, intent(in) :: strips ! across the patch of the solution that has most
 
-        warm_level = plan%first_counted
+        warm_level = 1
         if (plan%is_auto) return
         warm_level = max(1, findloc(plan%strips(:plan%n) <= level_factor*strips, .true., dim=1, &
                                     back=.true.))
     end function warm_level
-
-    !> What a level of the plan asks for.
-    pure type(level_t) function level_of(plan, way, in_doubt, tolerance)
-        type(plan_t), intent(in) :: plan
-        type(way_t), intent(in) :: way    ! its level and start
-        logical, intent(in) :: in_doubt   ! do patches split and join?
-        real(wp), intent(in) :: tolerance ! of the levels that count
-
-        level_of%strips_per_patch = plan%strips(way%level)
-        level_of%most_strips = maxval(plan%strips(:plan%n))
-        level_of%tolerance = tolerance
-        if (way%level < plan%first_counted) level_of%tolerance = max(tolerance, coarse_tolerance)
-        level_of%near = any(way%start == [from_last_solution, from_coarser, from_row])
-        level_of%at_once = way%start == from_nothing
-        level_of%resumes = way%start == from_last_solution
-        level_of%scouts = way%level < plan%first_counted
-        level_of%in_doubt = in_doubt
-    end function level_of
 
     !> Are so many strips enough that have changed so little?
     pure logical function is_enough(coarser, result)
@@ -258,18 +224,6 @@ contains
                     abs(result%penetration - coarser%penetration) &
                     <= auto_penetration*result%penetration
     end function is_enough
-
-    !> Twice the strips after the last level, if those are few: where a neck or an edge is too fine
-    !> for few strips, more may settle.
-    pure subroutine add_level(strips_per_patch, plan)
-        integer, intent(in) :: strips_per_patch ! asked
-        type(plan_t), intent(inout) :: plan
-
-        if (plan%strips(plan%n) > min(most_at_once, max(strips_per_patch, fewest_strips)) &
-            .or. plan%n == most_levels) return
-        plan%n = plan%n + 1
-        plan%strips(plan%n) = 2*plan%strips(plan%n - 1) + 1
-    end subroutine add_level
 
     !> Are the estimated errors not above a limit?
     pure logical function is_resolved(workspace, compliance, strips, result, limit)
@@ -292,32 +246,25 @@ contains
     pure type(plan_t) function level_plan(strips_per_patch) result(plan)
         integer, intent(in) :: strips_per_patch
 
+        integer :: strips
+
         plan%is_auto = strips_per_patch == strips_auto
         if (plan%is_auto) then
-            plan%n = 1 + size(auto_levels)
-            plan%strips(1) = scout_strips
-            plan%strips(2:plan%n) = auto_levels
+            plan%n = size(auto_levels)
+            plan%strips(:plan%n) = auto_levels
             return
         end if
-        plan%n = 1
-        plan%strips(1) = max(strips_per_patch, fewest_strips)
-        if (strips_per_patch < fewest_scouted) then
-            plan%first_counted = 1
-            return
-        end if
-        plan%strips(1) = scout_strips
-        do
-            plan%n = plan%n + 1
-            plan%strips(plan%n) = strips_per_patch
-            if (strips_per_patch <= most_at_once .or. plan%n == most_levels) exit
-            plan%strips(plan%n) = first_level
-            if (plan%n > 2) plan%strips(plan%n) = level_factor*plan%strips(plan%n - 1)
-            if (plan%strips(plan%n)*level_factor >= strips_per_patch) then
+        strips = max(strips_per_patch, fewest_strips)
+        if (strips > most_at_once) then
+            plan%n = 1
+            plan%strips(1) = first_level
+            do while (plan%strips(plan%n)*level_factor < strips .and. plan%n < most_levels - 2)
                 plan%n = plan%n + 1
-                plan%strips(plan%n) = strips_per_patch
-                exit
-            end if
-        end do
+                plan%strips(plan%n) = level_factor*plan%strips(plan%n - 1)
+            end do
+        end if
+        plan%n = plan%n + 1
+        plan%strips(plan%n) = strips
     end function level_plan
 
     !> The answer of a fixed lattice, for a gap whose ends did not converge.

@@ -19,8 +19,6 @@ module faststrip_normal_strip_pass
         logical, allocatable :: leaves(:)      !! strips to be cut off
         ! Work of the equations.
         real(wp), allocatable :: y(:)          !! centre lines
-        real(wp), allocatable :: influence(:, :)
-            !! one column: I, dI/dxd on the centre lines, I, dI/dxd, dI/dx at the tips
     end type pass_strips_t
 
 contains
@@ -33,12 +31,11 @@ contains
         if (allocated(strips%p0)) then
             if (size(strips%p0) >= capacity) return
             deallocate (strips%y_left, strips%y_right, strips%height, strips%inv2r, strips%p0, &
-                        strips%half_length, strips%leaves, strips%y, strips%influence)
+                        strips%half_length, strips%leaves, strips%y)
         end if
         allocate (strips%y_left(capacity), strips%y_right(capacity), strips%height(capacity), &
                   strips%inv2r(capacity), strips%p0(capacity), strips%half_length(capacity), &
                   strips%y(capacity), source=0.0_wp)
-        allocate (strips%influence(capacity, 5), source=0.0_wp)
         allocate (strips%leaves(capacity), source=.false.)
     end subroutine reserve_pass_strips
 end module faststrip_normal_strip_pass

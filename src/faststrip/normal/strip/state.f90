@@ -7,7 +7,6 @@ module faststrip_normal_strip_state
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
     use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice
     use faststrip_normal_strip_carried, only: carried_t, reserve_carried
-    use faststrip_normal_strip_drift, only: drift_t, reserve_drift
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
     use faststrip_normal_strip_pass, only: pass_strips_t, reserve_pass_strips
     use faststrip_normal_strip_patches, only: patches_t, max_patches, fewest_strips, only_match, &
@@ -35,7 +34,6 @@ module faststrip_normal_strip_state
         integer :: image_of = 0     !! the curve's version that this is the image of; 0: of none
         type(newton_workspace_t) :: newton
         type(carried_t) :: carried  !! influence coefficients of the last warm solution
-        type(drift_t) :: drift      !! what they missed in it
         type(lattice_workspace_t) :: lattice
         type(patches_t) :: old      !! the last patches that were solved
         real(wp) :: old_load = 0.0_wp        !! the load they carried, N
@@ -73,7 +71,6 @@ contains
         if (is_error(status)) return
         call reserve_newton(workspace%newton, max_strips)
         call reserve_carried(workspace%carried, max_strips)
-        call reserve_drift(workspace%drift, max_strips)
         if (workspace%max_strips >= max_strips) return
         call reserve_pass_strips(workspace%strips, max_strips)
         if (allocated(workspace%old_p0)) deallocate (workspace%old_eta, workspace%old_p0, &

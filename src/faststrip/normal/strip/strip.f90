@@ -162,7 +162,6 @@ contains
         else
             ! No bit of what follows depends on a history before.
             workspace%carried%known = .false.
-            workspace%drift%known = .false.
             workspace%newton%kept = .false.
         end if
         workspace%old_is_mirrored = mirrored
