@@ -12,6 +12,7 @@
 !> Which strips there are stays fixed: strips that leave are marked, and the caller decides.
 module faststrip_normal_strip_converge
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: beyond_all
     use faststrip_numerics_lu, only: lu_solve
     use faststrip_normal_strip_equations, only: count_step, count_evaluation, mark_leaving_strips
     use faststrip_normal_strip_carried, only: carry, carries, carried_change
@@ -100,7 +101,7 @@ contains
             evaluations = 0
             factored = 0
             was_fresh = .false.
-            norm_before = huge(1.0_wp)
+            norm_before = beyond_all
             backs = 0
             size_before = huge(1.0_wp)
             again = .not. carries(workspace%carried, patches)
