@@ -1,10 +1,9 @@
-!> Levels of the strip solver: the number of strips asked for is reached by way of smaller ones.
+!> The ways to a solution by strips, in the order in which they are tried.
 !>
-!> 7 strips find the patches, 15 and more refine them. The first are solved for together with the
-!> ends. Where that does not succeed a row of cells finds the patches, and passes of 7 strips where
-!> 15 do not converge on these. Where 20 or fewer strips do not converge at all twice as many are
-!> tried; a gap whose ends do not converge with them either, within a bounded work, gets the answer
-!> of `faststrip_normal_cells_lattice`.
+!> Strips and ends together, from the last solution or from the level set of a Hertz ellipse; where
+!> that does not settle, from the patches of a row of cells, together and then in turn; then few
+!> strips in turn. More than 20 strips are reached by way of 15. A gap whose ends do not converge,
+!> within a bounded work, gets the answer of `faststrip_normal_cells_lattice`.
 module faststrip_normal_strip_levels
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, st_fallback_used
@@ -92,9 +91,9 @@ contains
         logical, intent(out) :: all_settled  !! did as many as were asked settle?
         type(status_t), intent(inout) :: status !! those of the lattice
 
-        type(plan_t) :: plan, used
+        type(plan_t) :: plan
         type(settling_t) :: settling
-        integer :: way, first
+        integer :: way, level
         logical :: in_doubt, found
 
         call forget_lattice_errors(workspace%lattice)
@@ -104,14 +103,16 @@ contains
         do way = merge(from_last, from_level, options%warm_start .and. workspace%old%n > 0), few_first
             call begin(workspace, compliance, demand, way, settling, in_doubt, found)
             if (.not. found) cycle
-            used = plan
-            first = 1
             if (way == from_last) then
-                first = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
+                level = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
+            else if (way == from_level) then
+                level = 1
             else if (way == few_first) then
-                used = with_few(plan)
+                if (n_settled > 0) exit
+                plan = with_few(plan)
             end if
-            call climb(workspace, compliance, demand, options, used, first, way, in_doubt, &
+            ! A row starts where the level before has failed.
+            call climb(workspace, compliance, demand, options, plan, way, in_doubt, level, &
                        settling, strips, result, n_settled)
             if (settling%settled .or. (plan%is_auto .and. n_settled > 0)) exit
         end do
@@ -157,37 +158,38 @@ contains
     end subroutine begin
 
     !> Solve with the numbers of strips of a plan, each from the one before.
-    subroutine climb(workspace, compliance, demand, options, plan, first, way, in_doubt, settling, &
+    subroutine climb(workspace, compliance, demand, options, plan, way, in_doubt, level, settling, &
                      strips, result, n_settled)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
         type(strip_options_t), intent(in) :: options
         type(plan_t), intent(in) :: plan
-        integer, intent(in) :: first      ! level
         integer, intent(in) :: way        ! what it starts from
         logical, intent(in) :: in_doubt   ! do patches split and join?
+        integer, intent(inout) :: level   ! of the plan: the first, then the last
         type(settling_t), intent(inout) :: settling ! with the patches to start from
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
         integer, intent(inout) :: n_settled ! strips of the last level that settled
 
-        type(level_t) :: level
+        type(level_t) :: asked
         type(normal_result_t) :: coarser
-        integer :: i
+        integer :: first
 
-        do i = first, plan%n
-            level = level_t(plan%strips(i), maxval(plan%strips(:plan%n)), options%tolerance, &
-                            way /= from_level .or. i > first, in_doubt)
+        first = level
+        do level = first, plan%n
+            asked = level_t(plan%strips(level), maxval(plan%strips(:plan%n)), options%tolerance, &
+                            way /= from_level .or. level > first, in_doubt)
             coarser = result
             settling%settled = .false.
-            if (i > first .or. way < row_in_turn) &
-                call settle_together(workspace, compliance, demand, level, settling, strips, result)
-            if (.not. settling%settled .and. (i > first .or. way >= row_in_turn)) &
-                call settle_in_turn(workspace, compliance, demand, level, settling, strips, result)
+            if (level > first .or. way < row_in_turn) &
+                call settle_together(workspace, compliance, demand, asked, settling, strips, result)
+            if (.not. settling%settled .and. (level > first .or. way >= row_in_turn)) &
+                call settle_in_turn(workspace, compliance, demand, asked, settling, strips, result)
             if (.not. settling%settled) return
-            n_settled = plan%strips(i)
-            if (.not. plan%is_auto .or. i <= first) cycle
+            n_settled = plan%strips(level)
+            if (.not. plan%is_auto .or. level <= first) cycle
             if (.not. is_resolved(workspace, compliance, strips, result, &
                                   options%resolution_limit)) cycle
             if (is_enough(coarser, result)) return

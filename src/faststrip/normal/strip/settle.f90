@@ -236,6 +236,12 @@ contains
         if (changed) return
         call join_overlaps(workspace, compliance, level, settling, changed)
         if (changed) return
+        if (.not. level%near) then
+            ! From afar patches were shared by what their widths seemed to be.
+            solved = settling%patches
+            call share_strips(level%strips_per_patch, settling%patches)
+            if (any(solved%at%n_strips /= settling%patches%at%n_strips)) return
+        end if
         call keep(workspace, settling, strips, result)
         settling%settled = .true.
         done = .true.
