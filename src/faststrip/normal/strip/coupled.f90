@@ -20,12 +20,13 @@ module faststrip_normal_strip_coupled
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
     use faststrip_normal_strip_end_unknowns, only: end_t, list_ends, shift_ends, in_order
-    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges
+    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, position_strips, &
+                                            look_for_edges, renew_edges
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private
 
-    public :: settle_coupled, settle_carried, settle_at_once, max_factorings, few_factorings
+    public :: settle_coupled, settle_carried, settle_at_once, settle_edges, max_factorings, few_factorings
 
     ! Tuned [iterations]: Most iterations. Origin: safeguard.
     integer, parameter :: max_iterations = 30
@@ -62,6 +63,10 @@ module faststrip_normal_strip_coupled
     ! tolerance of the steps up to there. Origin: chosen for the time.
     real(wp), parameter :: near_change = 0.1_wp, near_enough = 0.1_wp
 
+    ! Tuned [strip widths]: edges that belong elsewhere by less stay. Origin: figures change by less
+    ! than 1e-6.
+    real(wp), public :: edge_tolerance = 1.0e-3_wp
+
     !> What one step hands to the next.
     type :: steps_t
         logical :: by_carried = .false. ! numbers, or exact ones
@@ -94,6 +99,41 @@ contains
         if (settled) call meet_load(workspace, demand)
     end subroutine settle_coupled
 
+    !> Solve once more where the edges of the strips belong elsewhere by now. Where that does not
+    !> succeed the solution stays as it was.
+    pure subroutine settle_edges(workspace, compliance, demand, tolerance, patches, cost)
+        type(strip_workspace_t), intent(inout) :: workspace !! with a solution
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand         !! load or penetration
+        real(wp), intent(in) :: tolerance            !! relative size of the residuals left
+        type(patches_t), intent(inout) :: patches    !! their ends move
+        type(cost_t), intent(inout) :: cost          !! increased
+
+        type(patches_t) :: solved
+        real(wp) :: change, penetration
+        integer :: n
+        logical :: settled, graded
+
+        call look_for_edges(workspace, patches, change)
+        if (change <= edge_tolerance) return
+        solved = patches
+        penetration = workspace%strips%penetration
+        n = workspace%strips%n
+        graded = workspace%graded
+        workspace%kept_edge(:n) = workspace%edge(:n)
+        call renew_edges(workspace, patches)
+        workspace%carried%known = .false.
+        call settle_carried(workspace, compliance, demand, tolerance, patches, cost, settled)
+        if (settled) return
+        patches = solved
+        workspace%graded = graded
+        workspace%edge(:n) = workspace%kept_edge(:n)
+        call position_strips(workspace, patches, n)
+        workspace%strips%penetration = penetration
+        workspace%carried%known = .false.
+        workspace%newton%kept = .false.
+    end subroutine settle_edges
+
     !> The same from the last solution, by influence coefficients that are carried on from the last
     !> exact evaluation (`faststrip_normal_strip_carried`), and evaluated anew where strips have
     !> moved so far that this would be seen.
@@ -106,6 +146,7 @@ contains
         type(cost_t), intent(inout) :: cost          !! increased
         logical, intent(out) :: settled              !! converged
 
+        real(wp) :: change
         integer :: evaluation
         logical :: leads
 
@@ -114,8 +155,9 @@ contains
             workspace%drift%known = .false.
             call evaluate(workspace, patches, cost)
             if (.not. workspace%carried%known) then
-                call settle_coupled(workspace, compliance, demand, tolerance, max_factorings, &
-                                    patches, cost, settled)
+                call converge(workspace, compliance, demand, tolerance, .false., max_factorings, &
+                              patches, cost, settled)
+                if (settled) call meet_load(workspace, demand)
                 return
             end if
         end if
@@ -126,7 +168,13 @@ contains
             if (.not. settled) exit
             settled = second_order*carried_change(workspace%carried, workspace%strips)**2 &
                       <= tolerance
+            change = 0.0_wp
+            if (workspace%graded) call look_for_edges(workspace, patches, change)
+            settled = settled .and. change <= edge_tolerance
             if (settled) exit
+            if (.not. leads) call length_changes(workspace%carried, workspace%strips, &
+                                                 workspace%newton%history(:, 1))
+            if (workspace%graded) call renew_edges(workspace, patches)
             if (.not. leads) call lead_on(workspace, patches)
             leads = .true.
             call evaluate(workspace, patches, cost)
@@ -151,7 +199,6 @@ contains
         type(patches_t) :: led
 
         associate (strips => workspace%strips, change => workspace%newton%history(:, 1))
-            call length_changes(workspace%carried, strips, change)
             led = patches
             call lead(workspace%drift, strips%n, change, strips%half_length, led)
             if (in_order(workspace, led)) patches = led
@@ -170,12 +217,17 @@ contains
         type(cost_t), intent(inout) :: cost          !! increased
         logical, intent(out) :: settled              !! converged
 
+        real(wp) :: change
         integer :: evaluation
 
         settled = .false.
         workspace%newton%kept = .false.
         workspace%drift%known = .false.
         do evaluation = 1, first_evaluations
+            if (evaluation > 1 .and. workspace%graded) then
+                call look_for_edges(workspace, patches, change)
+                call renew_edges(workspace, patches)
+            end if
             call evaluate(workspace, patches, cost)
             if (.not. workspace%carried%known) return
             call converge(workspace, compliance, demand, near_enough, .true., max_factorings, &

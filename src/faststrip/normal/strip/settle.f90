@@ -13,14 +13,15 @@ module faststrip_normal_strip_settle
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t, usual_strips, usual_strip_tolerance
     use faststrip_normal_strip_coupled, only: settle_coupled, settle_carried, settle_at_once, &
-                                              max_factorings, few_factorings
+                                              settle_edges, max_factorings, few_factorings
     use faststrip_normal_strip_ends, only: move_ends, part_ends, close_overlaps
     use faststrip_normal_strip_equations, only: cost_work, step_work
     use faststrip_normal_strip_figures, only: hand_over, summarize
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
     use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
                                               free_ends, drop_slivers
-    use faststrip_normal_strip_state, only: strip_workspace_t, position_strips, remember
+    use faststrip_normal_strip_state, only: strip_workspace_t, position_strips, remember, &
+                                            forget_edges
     use faststrip_normal_types, only: normal_result_t, demand_t, cost_t
     implicit none
     private
@@ -126,7 +127,7 @@ contains
         type(contact_strips_t), intent(inout) :: strips !! of the best pass
         type(normal_result_t), intent(inout) :: result  !! of the best pass; costs are added
 
-        call begin(level, settling)
+        call begin(workspace, level, settling)
         do
             select case (settling%state)
             case (state_position)
@@ -145,7 +146,8 @@ contains
     end subroutine settle
 
     !> Everything but patches and penetration as at the start; share the strips.
-    pure subroutine begin(level, settling)
+    pure subroutine begin(workspace, level, settling)
+        type(strip_workspace_t), intent(inout) :: workspace
         type(level_t), intent(in) :: level
         type(settling_t), intent(inout) :: settling
 
@@ -161,6 +163,7 @@ contains
         settling%best_move = huge(1.0_wp)
         settling%best_pass = 0
         call share_strips(level%strips_per_patch, settling%patches)
+        if (.not. level%resumes) call forget_edges(workspace, .not. level%scouts)
         if (.not. level%near) return
         ! A small patch keeps its strips where one more or less would only cost a new Jacobian.
         associate (before => settling%solved%at(:settling%solved%n)%n_strips, &
@@ -180,6 +183,7 @@ contains
 
         real(wp) :: narrowest
         integer :: n
+        logical :: couples
 
         settling%state = state_give_up
         if (settling%pass >= most_passes(level) .and. .not. settling%appeared) return
@@ -189,14 +193,17 @@ contains
         narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
         call drop_slivers(narrowest, settling%patches)
         if (settling%patches%n == 0) return
+        ! Ends that are moved in turn come and go with edges that follow the gap.
+        couples = settling%appeared .or. &
+                  settling%pass == 1 .and. (level%near .or. level%at_once)
+        if (.not. couples .and. workspace%graded) call forget_edges(workspace, .false.)
         call position_strips(workspace, settling%patches, n)
         if (n > min(workspace%max_strips, capacity)) return
         if (cost_work(cost) > work_to_begin + most_steps*step_work(max(n, level%most_strips))) &
             return
         workspace%strips%penetration = settling%penetration
         settling%solved = settling%patches
-        settling%state = merge(state_couple, state_newton, settling%appeared .or. &
-                               settling%pass == 1 .and. (level%near .or. level%at_once))
+        settling%state = merge(state_couple, state_newton, couples)
     end subroutine position
 
     !> How often strips may be positioned in a level.
@@ -344,6 +351,8 @@ contains
         end if
         if (.not. found .and. level%at_once) call leave_try(workspace, settling)
         if (.not. found) return
+        if (.not. level%scouts) call settle_edges(workspace, compliance, demand, level%tolerance, &
+                                                  settling%solved, result%cost)
         settling%patches = settling%solved
         settling%penetration = workspace%strips%penetration
         call remember(workspace, settling%patches)
