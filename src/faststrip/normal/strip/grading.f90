@@ -1,15 +1,18 @@
-!> Where a patch is cut into strips: narrower ones towards its ends, where lengths change fastest,
-!> and where the gap's curvature changes, as there do pressures and lengths.
+!> Where a patch is cut into strips: they are narrower towards its ends, where lengths change
+!> fastest, and where the curvature of the gap changes, as pressures and lengths do there.
 !>
-!> Of `s` from -1 to 1, which grows by 2/n from strip to strip, `blend(s)` is the place in
-!> half-widths of the patch where the curvature does not change. Elsewhere strips are narrower by
-!> `1 + V`, with `V = |B(s + d) - B(s - d)|` over the mean of `|B|`, bounded, and smoothed by a
-!> triangle of half-width d. B is the mean of the curvature between two places, from the slopes at
-!> them: at a place it is noise where the gap has kinks or was measured.
+!> With `s` from -1 to 1, which grows by 2/n from strip to strip, `blend(s)` is the place, in
+!> half-widths of the patch, of an edge where the curvature does not change. Elsewhere strips are
+!> narrower by
 !>
-!> The edges follow from the gap and the patch alone, and smoothly. They are ratios, so the unit of
-!> length does not matter, and those of a mirror image are the mirror image of the edges, to the
-!> last digit: sums are taken in pairs, and from the middle of the patch outwards.
+!>     1 + V,   V = |B(s + d) - B(s - d)| over the mean of |B| in the patch,
+!>
+!> V bounded and smoothed by a triangle. B is the mean of the gap's curvature between two places,
+!> from the slopes at them: at one place it would be noise where the gap has kinks or was measured.
+!>
+!> So the edges follow from the gap and the patch, smoothly. They are ratios, in which no unit of
+!> length is left, and those of a mirror image are the mirror image of the edges to the last digit:
+!> sums are taken in pairs and from the middle outwards.
 module faststrip_normal_strip_grading
     use faststrip_base_kinds, only: wp, pi
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_slopes
@@ -18,110 +21,112 @@ module faststrip_normal_strip_grading
 
     public :: grade, grade_plainly
 
-    real(wp), public :: end_grading = 0.7_wp, steepest = 4, reach = 1.5, reach2=1.5, gain = 1
-    integer, public :: per_strip = 3, box = 1
-    integer, parameter :: most_half = 256, padding = 32
+    ! Tuned [1]. Origin: chosen for the errors of pmax and area.
+    real(wp), parameter :: end_grading = 0.7_wp ! towards the ends; 0: even strips, 1: as the sine
+    ! Tuned [1]. Origin: chosen for the errors of pmax and area of 60 contacts, 30 each of S1002 on
+    ! 60E1 and 54E1; with 2 or 8 the areas or the pressures of the others are worse.
+    real(wp), parameter :: most_narrowed = 4.0_wp ! largest V
+    ! Tuned [strips]: d, and half the width of the triangle. Origin: as the bound; figures hardly
+    ! change between 1.2 and 2, and 1.5 and 2.5.
+    real(wp), parameter :: apart = 1.5_wp, smoothed = 2.0_wp
+    ! Tuned [places]: in a strip, at which the slope of the gap is looked at. Origin: chosen: with
+    ! more the figures are as good.
+    integer, parameter :: per_strip = 3
+    ! Tuned [places]: most in half a patch. Origin: capacity; more than 170 strips do with fewer.
+    integer, parameter :: most_places = 256
+    ! Given: at least d and half the triangle in places, where there are fewest strips.
+    integer, parameter :: beyond = 8
 
 contains
 
+    !> Right edges of the strips of a patch, in half-widths from its middle: rising, the last is 1.
     pure subroutine grade(curve, y_from, y_to, n, edge)
-        type(gap_curve_t), intent(in) :: curve !! a gap that was set
-        real(wp), intent(in) :: y_from, y_to
-        integer, intent(in) :: n
-        real(wp), intent(inout) :: edge(:)
+        type(gap_curve_t), intent(in) :: curve  !! a gap that was set
+        real(wp), intent(in) :: y_from          !! left end of the patch, mm
+        real(wp), intent(in) :: y_to            !! right end, mm
+        integer, intent(in) :: n                !! strips, >= 1
+        real(wp), intent(inout) :: edge(:)      !! (n)
 
-        real(wp), dimension(-most_half:most_half) :: eta, y, slope
-        real(wp), dimension(1 - padding:2*most_half + padding) :: bend, change, b2
-        real(wp), dimension(0:most_half) :: left, right
-        real(wp) :: middle, half, usual, total, at
-        integer :: m, d, d2, i, j, k
+        real(wp), dimension(-most_places:most_places) :: place, slope
+        real(wp), dimension(1 - beyond:2*most_places + beyond) :: bend, narrowed
+        real(wp), dimension(0:most_places) :: to_left, to_right ! strips from the middle, no unit
+        real(wp) :: middle, half, turn, at
+        integer :: m, d, width, i, j, k
 
-        m = min(most_half, (per_strip*n + 1)/2)
-        d = max(1, nint(reach*2*m/n))
-        d2 = max(1, nint(reach2*2*m/n))
+        m = min(most_places, (per_strip*n + 1)/2)
+        d = max(1, nint(apart*2*m/n))
+        width = max(1, nint(smoothed*2*m/n))
+        place(0) = 0.0_wp
+        do j = 1, m
+            place(j) = blend(real(j, wp)/m)
+            place(-j) = -place(j)
+        end do
         middle = 0.5_wp*(y_from + y_to)
         half = 0.5_wp*(y_to - y_from)
-        eta(0) = 0.0_wp
+        call gap_slopes(curve, middle + half*place(-m:m), slope(-m:m))
+        turn = 0.0_wp
         do j = 1, m
-            eta(j) = blend(real(j, wp)/m)
-            eta(-j) = -eta(j)
+            turn = turn + (abs(slope(j) - slope(j - 1)) + abs(slope(1 - j) - slope(-j)))
         end do
-        y(-m:m) = middle + half*eta(-m:m)
-        call gap_slopes(curve, y(-m:m), slope(-m:m))
-        usual = 0.0_wp
-        do j = m, 1, -1
-            usual = usual + (abs(slope(j) - slope(j - 1)) + abs(slope(1 - j) - slope(-j)))
-        end do
-        usual = 0.5_wp*usual
-        if (.not. (usual > 0.0_wp .and. usual < huge(1.0_wp))) then
+        if (.not. (turn > tiny(turn) .and. turn < huge(turn))) then
             call grade_plainly(n, edge)
             return
         end if
         do i = 1, 2*m
-            bend(i) = (slope(i - m) - slope(i - m - 1))/((eta(i - m) - eta(i - m - 1))*usual)
+            bend(i) = (slope(i - m) - slope(i - m - 1))/((place(i - m) - place(i - m - 1)) &
+                                                         *(0.5_wp*turn))
         end do
-        bend(1 - padding:0) = bend(1)
-        bend(2*m + 1:2*m + padding) = bend(2*m)
-        b2 = bend
-        if (box > 0) then
-        do i = 1,2*m
-            b2(i) = bend(i)
-            do j=1,box
-            b2(i) = b2(i) + (bend(i-j)+bend(i+j))
-            end do
-            b2(i) = b2(i)/(2*box+1)
-        end do
-        b2(1 - padding:0) = b2(1)
-        b2(2*m + 1:2*m + padding) = b2(2*m)
-        end if
+        call go_on(bend)
         do i = 1, 2*m
-            change(i) = min(gain*abs(b2(i + d) - b2(i - d)), steepest)
+            narrowed(i) = min(abs(bend(i + d) - bend(i - d)), most_narrowed)
         end do
-        change(1 - padding:0) = change(1)
-        change(2*m + 1:2*m + padding) = change(2*m)
-        left(0) = 0.0_wp
-        right(0) = 0.0_wp
+        call go_on(narrowed)
+        to_left(0) = 0.0_wp
+        to_right(0) = 0.0_wp
         do j = 1, m
-            left(j) = left(j - 1) + density(m + 1 - j)
-            right(j) = right(j - 1) + density(m + j)
+            to_left(j) = to_left(j - 1) + density(narrowed, m + 1 - j)
+            to_right(j) = to_right(j - 1) + density(narrowed, m + j)
         end do
-        total = left(m) + right(m)
         do k = 1, n - 1
-            at = 0.5_wp*((right(m) - left(m)) + total*(2*k - n)/n)
+            at = 0.5_wp*((to_right(m) - to_left(m)) + (to_right(m) + to_left(m))*(2*k - n)/n)
             if (at < 0.0_wp) then
-                edge(k) = -blend(place(left, -at))
+                edge(k) = -blend(inverse(to_left(:m), -at))
             else
-                edge(k) = blend(place(right, at))
+                edge(k) = blend(inverse(to_right(:m), at))
             end if
         end do
         edge(n) = 1.0_wp
 
     contains
 
-        pure real(wp) function density(i)
+        !> Beyond the ends of the patch values are those of its last places.
+        pure subroutine go_on(values)
+            real(wp), intent(inout) :: values(1 - beyond:)
+
+            values(1 - beyond:0) = values(1)
+            values(2*m + 1:2*m + beyond) = values(2*m)
+        end subroutine go_on
+
+        !> How much narrower strips are, smoothed.
+        pure real(wp) function density(narrowed, i)
+            real(wp), intent(in) :: narrowed(1 - beyond:)
             integer, intent(in) :: i
-            integer :: j
 
-            density = d2*change(i)
-            do j = 1, d2 - 1
-                density = density + (d2 - j)*(change(i - j) + change(i + j))
+            integer :: k
+
+            density = width*narrowed(i)
+            do k = 1, width - 1
+                density = density + (width - k)*(narrowed(i - k) + narrowed(i + k))
             end do
-            density = 1.0_wp + density/d2**2
+            density = 1.0_wp + density/width**2
         end function density
-
-        pure real(wp) function place(sums, at)
-            real(wp), intent(in) :: sums(0:), at
-            integer :: i
-            do i = 0, m - 2
-                if (sums(i + 1) >= at) exit
-            end do
-            place = (i + (at - sums(i))/(sums(i + 1) - sums(i)))/m
-        end function place
     end subroutine grade
 
+    !> The same where the curvature of the gap does not change.
     pure subroutine grade_plainly(n, edge)
-        integer, intent(in) :: n
-        real(wp), intent(inout) :: edge(:)
+        integer, intent(in) :: n           !! strips, >= 1
+        real(wp), intent(inout) :: edge(:) !! (n)
+
         integer :: k
 
         do k = 1, n
@@ -129,9 +134,24 @@ contains
         end do
     end subroutine grade_plainly
 
+    !> Strips grow narrower towards the ends of a patch; -1, 0, 1 stay in place.
     pure real(wp) function blend(s)
         real(wp), intent(in) :: s
 
         blend = (1.0_wp - end_grading)*s + end_grading*sin(0.5_wp*pi*s)
     end function blend
+
+    !> Where sums reach a value, between 0, the first, and 1, the last.
+    pure real(wp) function inverse(sums, value)
+        real(wp), intent(in) :: sums(0:) ! rising, from 0
+        real(wp), intent(in) :: value
+
+        integer :: i, m
+
+        m = ubound(sums, 1)
+        do i = 0, m - 2
+            if (sums(i + 1) >= value) exit
+        end do
+        inverse = (i + (value - sums(i))/(sums(i + 1) - sums(i)))/m
+    end function inverse
 end module faststrip_normal_strip_grading
