@@ -26,7 +26,8 @@ module faststrip_normal_strip_coupled
     implicit none
     private
 
-    public :: settle_coupled, settle_carried, settle_at_once, settle_edges, max_factorings, few_factorings
+    public :: settle_coupled, settle_carried, settle_at_once, settle_edges
+    public :: max_factorings, few_factorings
 
     ! Tuned [iterations]: Most iterations. Origin: safeguard.
     integer, parameter :: max_iterations = 30
@@ -64,8 +65,8 @@ module faststrip_normal_strip_coupled
     real(wp), parameter :: near_change = 0.1_wp, near_enough = 0.1_wp
 
     ! Tuned [strip widths]: edges that belong elsewhere by less stay. Origin: figures change by less
-    ! than 1e-6.
-    real(wp), public :: edge_tolerance = 1.0e-3_wp
+    ! than some 1e-6.
+    real(wp), parameter :: edge_tolerance = 3.0e-4_wp
 
     !> What one step hands to the next.
     type :: steps_t
@@ -168,6 +169,7 @@ contains
             if (.not. settled) exit
             settled = second_order*carried_change(workspace%carried, workspace%strips)**2 &
                       <= tolerance
+            ! Edges that the gap asks for follow the patches.
             change = 0.0_wp
             if (workspace%graded) call look_for_edges(workspace, patches, change)
             settled = settled .and. change <= edge_tolerance

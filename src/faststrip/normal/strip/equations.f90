@@ -15,6 +15,7 @@ module faststrip_normal_strip_equations
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
+    use faststrip_normal_strip_figures, only: correction_of
     use faststrip_normal_strip_pass, only: pass_strips_t
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
@@ -73,7 +74,7 @@ contains
     end function step_work
 
     !> Residuals of the 2n + 1 equations, over the penetration and the load: centre lines, tips,
-    !> load (or zero).
+    !> load or penetration.
     pure subroutine strip_residual(strips, compliance, demand, residual)
         type(pass_strips_t), intent(inout) :: strips !! its work changes, nothing else
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
@@ -228,9 +229,13 @@ contains
             strips%y(:n) = 0.5_wp*(y_left + y_right)
             residual(:n) = (penetration - strips%height(:n))/penetration
             residual(n + 1:2*n) = residual(:n) - strips%inv2r(:n)*half_length**2/penetration
-            residual(2*n + 1) = 0.0_wp
-            if (demand%by_load) residual(2*n + 1) = &
-                1.0_wp - sum(0.5_wp*pi*p0*half_length*(y_right - y_left))/demand%load
+            if (demand%by_load) then
+                residual(2*n + 1) = 1.0_wp - sum(0.5_wp*pi*p0*half_length*(y_right - y_left)) &
+                                    /demand%load
+            else
+                residual(2*n + 1) = demand%penetration/(correction_of(y_left, y_right) &
+                                                        *penetration) - 1.0_wp
+            end if
         end associate
     end subroutine start_residual
 

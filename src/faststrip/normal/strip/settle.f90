@@ -16,7 +16,7 @@ module faststrip_normal_strip_settle
                                               settle_edges, max_factorings, few_factorings
     use faststrip_normal_strip_ends, only: move_ends, part_ends, close_overlaps
     use faststrip_normal_strip_equations, only: cost_work, step_work
-    use faststrip_normal_strip_figures, only: hand_over, summarize
+    use faststrip_normal_strip_figures, only: hand_over, summarize, correction_of
     use faststrip_normal_strip_newton, only: solve_strips, newton_converged, newton_strips_leave
     use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
                                               free_ends, drop_slivers
@@ -404,9 +404,13 @@ contains
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
 
+        real(wp) :: correction
+
         settling%best_move = moved
         settling%best_pass = settling%pass
         call hand_over(workspace%strips, settling%patches, strips)
-        call summarize(strips, settling%penetration + workspace%curve%h_lowest, result)
+        correction = correction_of(strips%y_left(:strips%n), strips%y_right(:strips%n))
+        call summarize(strips, workspace%curve%h_lowest + correction*settling%penetration, &
+                       correction, result)
     end subroutine keep
 end module faststrip_normal_strip_settle

@@ -38,7 +38,9 @@ module faststrip_normal_strip_state
         type(lattice_workspace_t) :: lattice
         type(patches_t) :: old      !! the last patches that were solved
         real(wp) :: old_load = 0.0_wp        !! the load they carried, N
-        real(wp) :: old_penetration = 0.0_wp !! and their penetration above the lowest height, mm
+        real(wp) :: old_penetration = 0.0_wp !! and their corrected penetration above the lowest
+                                             !! height, mm
+        real(wp) :: old_correction = 1.0_wp  !! of it
         logical :: old_is_mirrored = .false. !! was their gap solved as its mirror image?
         logical :: old_is_even = .false.     !! was it its own?
         integer :: max_strips = 0   !! capacity, all patches together
