@@ -198,8 +198,9 @@ contains
 
         type(deformed_t) :: deformed
 
-        deformed%penetration = result%penetration
-        deformed%depth = result%penetration - curve%h_lowest
+        ! At which the strips close the gap.
+        deformed%depth = (result%penetration - curve%h_lowest)/result%correction
+        deformed%penetration = curve%h_lowest + deformed%depth
         call say_whether(verdict, check_depth, deformed%depth > 0.0_wp)
         if (.not. deformed%depth > 0.0_wp) return
         associate (material => case%material)

@@ -27,6 +27,9 @@ module faststrip_normal_types
     type :: normal_result_t
         real(wp) :: load = 0.0_wp        !! normal force, N
         real(wp) :: penetration = 0.0_wp !! approach D of the bodies, from h = 0, mm
+        ! Given: none.
+        real(wp) :: correction = 1.0_wp  !! depth D - h_lowest over that at which strips close the
+                                         !! gap; 1 but for NFASTSTRIP
         real(wp) :: area = 0.0_wp        !! contact area, mm2
         real(wp) :: pmax = 0.0_wp        !! maximum pressure, MPa
         real(wp) :: y_min = 0.0_wp       !! left end of the contact, mm

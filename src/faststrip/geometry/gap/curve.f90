@@ -27,7 +27,7 @@ module faststrip_geometry_gap_curve
     private
 
     public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points, copy_gap_curve
-    public :: gap_at, gap_curvature, level_intervals
+    public :: gap_at, gap_slopes, gap_curvature, level_intervals
     public :: mirror_gap_curve, valley_below
     public :: gap_inv2r, inclination_change, largest_step, first_point_from
 
@@ -419,6 +419,40 @@ contains
         end if
         inv2r = max(inv2r, curve%least_inv2r)
     end subroutine gap_at
+
+    !> Slopes of the gap at places; outside the points those at the nearest one, at a kink the mean
+    !> of its two sides. Those of a mirror image are the negative to the last digit.
+    pure subroutine gap_slopes(curve, y, slope)
+        type(gap_curve_t), intent(in) :: curve   !! a gap that was set
+        real(wp), intent(in) :: y(:)             !! lateral positions, increasing, mm
+        real(wp), intent(inout) :: slope(:)      !! h' at each
+
+        integer :: i, k
+        real(wp) :: dy, t, u
+
+        if (size(y) == 0) return
+        i = interval_of(curve, y(1))
+        do k = 1, size(y)
+            do while (i < curve%n - 1)
+                if (y(k) < curve%y(i + 1)) exit
+                i = i + 1
+            end do
+            if (y(k) <= curve%y(1)) then
+                slope(k) = curve%slope_from(1)
+            else if (y(k) >= curve%y(curve%n)) then
+                slope(k) = curve%slope_to(curve%n - 1)
+            else if (y(k) <= curve%y(i)) then
+                slope(k) = 0.5_wp*(curve%slope_to(i - 1) + curve%slope_from(i))
+            else
+                dy = curve%y(i + 1) - curve%y(i)
+                t = (y(k) - curve%y(i))/dy
+                u = (curve%y(i + 1) - y(k))/dy
+                slope(k) = (curve%slope_from(i)*(u*(u - 2.0_wp*t)) &
+                            + curve%slope_to(i)*(t*(t - 2.0_wp*u))) &
+                           + 6.0_wp*(t*u)*((curve%h(i + 1) - curve%h(i))/dy)
+            end if
+        end do
+    end subroutine gap_slopes
 
     !> The longitudinal term as it was given, 1/mm; outside the points that of the nearest one.
     pure real(wp) function gap_inv2r(curve, y) result(inv2r)

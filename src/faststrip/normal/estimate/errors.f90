@@ -150,7 +150,7 @@ contains
         type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         type(contact_strips_t), intent(in) :: strips !! the solution
-        type(normal_result_t), intent(in) :: result  !! its penetration and pmax are used
+        type(normal_result_t), intent(in) :: result  !! penetration, correction and pmax count
         type(normal_errors_t), intent(out) :: normal_errors !! zeros after an error
         type(status_t), intent(out) :: status        !! how it ended
 
@@ -161,7 +161,7 @@ contains
 
         call check_solution(curve, compliance, strips, result, status)
         if (is_error(status)) return
-        depth = result%penetration - curve%h_lowest
+        depth = (result%penetration - curve%h_lowest)/result%correction
         sums%peak = maxloc(strips%p0(:strips%n), dim=1)
         sums%variation = inv2r_range(curve, strips%y_left(1), strips%y_right(strips%n))
         do from = 1, strips%n, block

@@ -13,6 +13,7 @@
 !> - **N2** The displacement at the tip is the exact integral, not the quotient (22)-(24).
 module faststrip_normal_strip_equations
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_normal_strip_figures, only: correction_of
     use faststrip_normal_strip_pass, only: pass_strips_t
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
@@ -171,9 +172,13 @@ contains
             strips%y(:n) = 0.5_wp*(y_left + y_right)
             residual(:n) = (penetration - strips%height(:n))/penetration
             residual(n + 1:2*n) = residual(:n) - strips%inv2r(:n)*half_length**2/penetration
-            residual(2*n + 1) = 0.0_wp
-            if (demand%by_load) residual(2*n + 1) = &
-                1.0_wp - sum(0.5_wp*pi*p0*half_length*(y_right - y_left))/demand%load
+            if (demand%by_load) then
+                residual(2*n + 1) = 1.0_wp - sum(0.5_wp*pi*p0*half_length*(y_right - y_left)) &
+                                    /demand%load
+            else
+                residual(2*n + 1) = demand%penetration/(correction_of(y_left, y_right) &
+                                                        *penetration) - 1.0_wp
+            end if
         end associate
     end subroutine start_residual
 

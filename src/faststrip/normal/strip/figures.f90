@@ -9,7 +9,12 @@ module faststrip_normal_strip_figures
     implicit none
     private
 
-    public :: hand_over, summarize
+    public :: hand_over, summarize, correction_of
+
+    ! Tuned [1]: what strips miss of the penetration, over the mean square of their widths in that
+    ! of their patch. Origin: medians of .085 to .1 with 7 to 31 strips on the contacts by which
+    ! strips are graded and on others; .067 to .14 of Hertz ellipses with a/b from .2 to 4.5.
+    real(wp), parameter :: missed = 0.09_wp
 
 contains
 
@@ -39,16 +44,48 @@ contains
         end do
     end subroutine hand_over
 
+    !> The penetration above the lowest height, over that with which the strips close the gap.
+    !>
+    !> Strips miss a part that goes with the square of their widths, nearly the same in all contacts
+    !> without edges. It depends on the edges alone, so that load and penetration given belong
+    !> together. Strips that share an edge are in one patch.
+    pure real(wp) function correction_of(y_left, y_right) result(correction)
+        real(wp), intent(in) :: y_left(:)  !! left edges of all strips, in the order of y, mm
+        real(wp), intent(in) :: y_right(:) !! right edges, mm
+
+        real(wp) :: cubes, squares, width
+        integer :: first, last
+
+        squares = 0.0_wp
+        width = 0.0_wp
+        last = 0
+        do while (last < size(y_left))
+            first = last + 1
+            last = first
+            do while (last < size(y_left))
+                if (y_left(last + 1) > y_right(last)) exit
+                last = last + 1
+            end do
+            cubes = sum(((y_right(first:last) - y_left(first:last)) &
+                         /(y_right(last) - y_left(first)))**3)
+            squares = squares + (y_right(last) - y_left(first))*cubes
+            width = width + (y_right(last) - y_left(first))
+        end do
+        correction = 1.0_wp + missed*squares/width
+    end function correction_of
+
     !> The figures of a solution.
-    pure subroutine summarize(strips, penetration, result)
+    pure subroutine summarize(strips, penetration, correction, result)
         type(contact_strips_t), intent(in) :: strips !! of the solution
         real(wp), intent(in) :: penetration !! from h = 0, mm
+        real(wp), intent(in) :: correction  !! that is in it, see `correction_of`
         type(normal_result_t), intent(inout) :: result !! all but what it cost
 
         integer :: p, first, last
 
         result%load = strips_load(strips)
         result%penetration = penetration
+        result%correction = correction
         result%area = 0.0_wp
         result%pmax = 0.0_wp
         result%x_max = 0.0_wp

@@ -126,7 +126,8 @@ contains
             return
         end if
         workspace%old_load = result%load
-        workspace%old_penetration = settling%penetration
+        workspace%old_penetration = settling%penetration*result%correction
+        workspace%old_correction = result%correction
         ! What did not converge is no start for the next solution.
         if (.not. all_settled) workspace%old%n = 0
     end subroutine solve_by_levels
@@ -290,7 +291,7 @@ contains
                                            penetration, strips_per_patch, strips, status)
         end if
         if (is_error(status)) return
-        call summarize(strips, penetration, result)
+        call summarize(strips, penetration, 1.0_wp, result)
         call set_status(status, st_fallback_used, &
                         'the ends of the contact patches did not converge: fixed lattice used')
     end subroutine fall_back

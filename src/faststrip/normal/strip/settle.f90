@@ -11,10 +11,11 @@ module faststrip_normal_strip_settle
     use faststrip_normal_strip_converge, only: converge, converged, strips_leave
     use faststrip_normal_strip_ends, only: move_ends, part_ends, close_overlaps
     use faststrip_normal_strip_equations, only: cost_work, step_work
-    use faststrip_normal_strip_figures, only: hand_over, summarize
+    use faststrip_normal_strip_figures, only: hand_over, summarize, correction_of
     use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
                                               free_ends, drop_slivers
-    use faststrip_normal_strip_state, only: strip_workspace_t, position_strips, remember
+    use faststrip_normal_strip_state, only: strip_workspace_t, position_strips, remember, &
+                                            forget_edges
     use faststrip_normal_types, only: normal_result_t, demand_t, cost_t
     implicit none
     private
@@ -86,6 +87,7 @@ contains
         logical :: done
 
         call begin(level, settling)
+        workspace%graded = .true.
         do coupling = 1, max_couplings
             call couple(workspace, compliance, demand, level, settling, strips, result, done)
             if (done) return
@@ -103,11 +105,14 @@ contains
         type(contact_strips_t), intent(inout) :: strips !! of the best pass, if it settled
         type(normal_result_t), intent(inout) :: result  !! of the best pass; costs are added
 
+        type(settling_t) :: best
         real(wp) :: tolerance, moved, best_move
         integer :: pass, best_pass, couplings, outcome
         logical :: at_rest, possible, changed, done
 
         call begin(level, settling)
+        ! Ends that are moved in turn come and go with edges that follow the gap.
+        call forget_edges(workspace, .false.)
         tolerance = max(merge(near_tolerance, far_tolerance, level%near), level%tolerance)
         at_rest = .false.
         best_move = huge(1.0_wp)
@@ -155,9 +160,17 @@ contains
             if (.not. moved < coupling_move .or. couplings == max_couplings) cycle
             couplings = couplings + 1
             call couple(workspace, compliance, demand, level, settling, strips, result, done)
-            if (settling%settled) return
+            if (.not. settling%settled) cycle
+            best_move = 0.0_wp
+            exit
         end do
         settling%settled = best_move <= loose_end_tolerance
+        if (.not. settling%settled) return
+        ! Now they may follow it, if that succeeds.
+        best = settling
+        call forget_edges(workspace, .true.)
+        call couple(workspace, compliance, demand, level, settling, strips, result, done)
+        if (.not. (done .and. settling%settled)) settling = best
     end subroutine settle_in_turn
 
     !> Everything but patches and penetration as at the start; share the strips.
@@ -220,6 +233,7 @@ contains
         integer :: outcome
         logical :: possible, changed
 
+        settling%settled = .false.
         call position(workspace, level, size(strips%p0), result%cost, settling, possible)
         done = .not. possible
         if (done) return
@@ -283,7 +297,11 @@ contains
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
 
+        real(wp) :: correction
+
         call hand_over(workspace%strips, settling%patches, strips)
-        call summarize(strips, settling%penetration + workspace%curve%h_lowest, result)
+        correction = correction_of(strips%y_left(:strips%n), strips%y_right(:strips%n))
+        call summarize(strips, workspace%curve%h_lowest + correction*settling%penetration, &
+                       correction, result)
     end subroutine keep
 end module faststrip_normal_strip_settle

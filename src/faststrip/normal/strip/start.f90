@@ -89,7 +89,7 @@ contains
         else
             factor = sqrt(demand%penetration/workspace%old_penetration)
         end if
-        penetration = workspace%old_penetration*factor**2
+        penetration = workspace%old_penetration/workspace%old_correction*factor**2
         n = sum(workspace%old%at(:workspace%old%n)%n_strips)
         workspace%old_p0(:n) = workspace%old_p0(:n)*factor
         workspace%old_half_length(:n) = workspace%old_half_length(:n)*factor

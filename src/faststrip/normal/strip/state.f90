@@ -1,12 +1,13 @@
 !> What a strip solution works on: the gap, the strips of the pass, and what the last pass left.
 module faststrip_normal_strip_state
-    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_bad_argument
     use faststrip_numerics_reversal, only: reverse, reverse_negated
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
     use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice
     use faststrip_normal_strip_carried, only: carried_t, reserve_carried
+    use faststrip_normal_strip_grading, only: grade, grade_plainly
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
     use faststrip_normal_strip_pass, only: pass_strips_t, reserve_pass_strips
     use faststrip_normal_strip_patches, only: patches_t, max_patches, fewest_strips, only_match, &
@@ -16,6 +17,7 @@ module faststrip_normal_strip_state
 
     public :: strip_workspace_t, reserve_strip_workspace, set_strip_gap
     public :: position_edges, position_strips, remember, mirror_old, flattest
+    public :: forget_edges, look_for_edges, renew_edges
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
     !> Tuned [1/mm]. Origin: safeguard.
@@ -23,9 +25,6 @@ module faststrip_normal_strip_state
     ! Tuned [half-widths]: place in an old patch from which a strip beside it is started. Origin:
     ! chosen: pressures vanish at 1.
     real(wp), parameter :: outermost = 0.95_wp
-
-    ! Tuned [1]. Origin: chosen for the errors of pmax and area.
-    real(wp), parameter :: end_grading = 0.7_wp ! of the strip edges; 0: even, 1: as the sine
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread.
     type :: strip_workspace_t
@@ -37,14 +36,18 @@ module faststrip_normal_strip_state
         type(lattice_workspace_t) :: lattice
         type(patches_t) :: old      !! the last patches that were solved
         real(wp) :: old_load = 0.0_wp        !! the load they carried, N
-        real(wp) :: old_penetration = 0.0_wp !! and their penetration above the lowest height, mm
+        real(wp) :: old_penetration = 0.0_wp !! and their corrected penetration above the lowest
+                                             !! height, mm
+        real(wp) :: old_correction = 1.0_wp  !! of it
         logical :: old_is_mirrored = .false. !! was their gap solved as its mirror image?
         logical :: old_is_even = .false.     !! was it its own?
         integer :: max_strips = 0   !! capacity, all patches together
         type(pass_strips_t) :: strips !! of the pass, all patches together
         real(wp), allocatable :: old_eta(:), old_p0(:), old_half_length(:) ! over the ellipse factor
+        logical :: graded = .true.           !! do edges follow the gap, or the ends alone?
         integer :: n_graded(max_patches) = 0 !! strips of patches whose `edge` is known
         real(wp), allocatable :: edge(:)     !! right edges of strips in half-widths of their patch
+        real(wp), allocatable :: new_edge(:) !! those of the patches where they are
         real(wp) :: old_inv2r = 1.0_wp !! the unit of A in `old_half_length`, 1/mm: one of the
                                        !! strips', so that the unit of length does not matter
     end type strip_workspace_t
@@ -73,10 +76,12 @@ contains
         call reserve_carried(workspace%carried, max_strips)
         if (workspace%max_strips >= max_strips) return
         call reserve_pass_strips(workspace%strips, max_strips)
-        if (allocated(workspace%old_p0)) deallocate (workspace%old_eta, workspace%old_p0, &
-                                                     workspace%old_half_length, workspace%edge)
+        if (allocated(workspace%old_p0)) &
+            deallocate (workspace%old_eta, workspace%old_p0, workspace%old_half_length, &
+                        workspace%edge, workspace%new_edge)
         allocate (workspace%old_eta(max_strips), workspace%old_p0(max_strips), &
-                  workspace%old_half_length(max_strips), workspace%edge(max_strips), source=0.0_wp)
+                  workspace%old_half_length(max_strips), workspace%edge(max_strips), &
+                  workspace%new_edge(max_strips), source=0.0_wp)
         workspace%n_graded = 0
         workspace%max_strips = max_strips
     end subroutine reserve_strip_workspace
@@ -92,9 +97,7 @@ contains
 
     !> Cut the patches into strips and start them from the previous pass.
     !>
-    !> The edges are graded towards the ends, where the strip lengths change fastest: with 0.7 the
-    !> ends, the maximum pressure and the penetration of the 20 contacts of the paper's section 5
-    !> come out best.
+    !> Their edges are those of `faststrip_normal_strip_grading`, or those that are known.
     pure subroutine position_strips(workspace, patches, n)
         type(strip_workspace_t), intent(inout) :: workspace
         type(patches_t), intent(in) :: patches
@@ -175,7 +178,7 @@ contains
         type(strip_workspace_t), intent(inout) :: workspace
         type(patches_t), intent(in) :: patches
 
-        integer :: p, k, n, last
+        integer :: p, n, last
         logical :: known
 
         known = .true.
@@ -186,20 +189,66 @@ contains
             if (.not. known) then
                 workspace%n_graded(p:) = 0
                 workspace%n_graded(p) = n
-                do k = 1, n
-                    workspace%edge(last + k) = graded(2.0_wp*k/n - 1.0_wp)
-                end do
+                if (workspace%graded) then
+                    call grade(workspace%curve, patches%at(p)%y_from, patches%at(p)%y_to, n, &
+                               workspace%edge(last + 1:last + n))
+                else
+                    call grade_plainly(n, workspace%edge(last + 1:last + n))
+                end if
             end if
             last = last + n
         end do
     end subroutine grade_edges
 
-    !> Grading of a patch's edges: strips grow narrower towards its ends; -1, 0, 1 stay in place.
-    pure real(wp) function graded(t)
-        real(wp), intent(in) :: t
+    !> Forget where edges are: the next strips are cut anew.
+    pure subroutine forget_edges(workspace, graded)
+        type(strip_workspace_t), intent(inout) :: workspace
+        logical, intent(in) :: graded !! do they follow the gap, or the ends alone?
 
-        graded = (1.0_wp - end_grading)*t + end_grading*sin(0.5_wp*pi*t)
-    end function graded
+        workspace%graded = graded
+        workspace%n_graded = 0
+    end subroutine forget_edges
+
+    !> Where the edges of patches belong that have moved, and how far that is from where they are.
+    pure subroutine look_for_edges(workspace, patches, change)
+        type(strip_workspace_t), intent(inout) :: workspace !! with strips in these patches
+        type(patches_t), intent(in) :: patches
+        real(wp), intent(out) :: change !! largest of an edge, in widths of the strip
+
+        integer :: p, n, k, last
+        real(wp) :: before
+
+        change = 0.0_wp
+        last = 0
+        do p = 1, patches%n
+            n = patches%at(p)%n_strips
+            associate (edge => workspace%edge(last + 1:last + n), &
+                       new_edge => workspace%new_edge(last + 1:last + n))
+                call grade(workspace%curve, patches%at(p)%y_from, patches%at(p)%y_to, n, new_edge)
+                before = -1.0_wp
+                do k = 1, n - 1
+                    change = max(change, abs(new_edge(k) - edge(k))/(edge(k) - before))
+                    before = edge(k)
+                end do
+            end associate
+            last = last + n
+        end do
+    end subroutine look_for_edges
+
+    !> Cut patches into strips where `look_for_edges` found that they belong; pressures and lengths
+    !> are taken over.
+    pure subroutine renew_edges(workspace, patches)
+        type(strip_workspace_t), intent(inout) :: workspace !! with strips in these patches
+        type(patches_t), intent(inout) :: patches
+
+        integer :: n
+
+        call remember(workspace, patches)
+        n = workspace%strips%n
+        workspace%graded = .true.
+        workspace%edge(:n) = workspace%new_edge(:n)
+        call position_strips(workspace, patches, n)
+    end subroutine renew_edges
 
     !> Keep a solution as the start of the next pass: pressures and lengths over the ellipse
     !> factor sqrt(1 - eta^2), which makes them smooth up to the ends.
@@ -244,6 +293,7 @@ contains
         call mirror_patches(workspace%old)
         workspace%newton%kept = .false.
         workspace%carried%known = .false.
+        call forget_edges(workspace, .true.)
     end subroutine mirror_old
 
     !> Start strip i, at `eta` of its patch, from old patch q at `eta_old`.

@@ -180,7 +180,7 @@ contains
         if (is_error(status)) return
         penetration = result%penetration - workspace%curve%h_lowest
         if (n_settled > 0) then
-            if (overlap_left(workspace%curve, compliance, penetration, strips) &
+            if (overlap_left(workspace%curve, compliance, penetration/result%correction, strips) &
                 > named_overlap) &
                 call add_limitation(status, st_overlap_left, 'surfaces overlap outside the ' &
                                     //'patches by more than 1 % of the penetration: a rough gap, ' &

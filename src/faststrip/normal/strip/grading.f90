@@ -1,0 +1,157 @@
+!> Where a patch is cut into strips: they are narrower towards its ends, where lengths change
+!> fastest, and where the curvature of the gap changes, as pressures and lengths do there.
+!>
+!> With `s` from -1 to 1, which grows by 2/n from strip to strip, `blend(s)` is the place, in
+!> half-widths of the patch, of an edge where the curvature does not change. Elsewhere strips are
+!> narrower by
+!>
+!>     1 + V,   V = |B(s + d) - B(s - d)| over the mean of |B| in the patch,
+!>
+!> V bounded and smoothed by a triangle. B is the mean of the gap's curvature between two places,
+!> from the slopes at them: at one place it would be noise where the gap has kinks or was measured.
+!>
+!> So the edges follow from the gap and the patch, smoothly. They are ratios, in which no unit of
+!> length is left, and those of a mirror image are the mirror image of the edges to the last digit:
+!> sums are taken in pairs and from the middle outwards.
+module faststrip_normal_strip_grading
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_slopes
+    implicit none
+    private
+
+    public :: grade, grade_plainly
+
+    ! Tuned [1]. Origin: chosen for the errors of pmax and area.
+    real(wp), parameter :: end_grading = 0.7_wp ! towards the ends; 0: even strips, 1: as the sine
+    ! Tuned [1]. Origin: chosen for the errors of pmax and area of 60 contacts, 30 each of S1002 on
+    ! 60E1 and 54E1; with 2 or 8 the areas or the pressures of the others are worse.
+    real(wp), parameter :: most_narrowed = 4.0_wp ! largest V
+    ! Tuned [strips]: d, and half the width of the triangle. Origin: as the bound; figures hardly
+    ! change between 1.2 and 2, and 1.5 and 2.5.
+    real(wp), parameter :: apart = 1.5_wp, smoothed = 2.0_wp
+    ! Tuned [places]: in a strip, at which the slope of the gap is looked at. Origin: chosen: with
+    ! more the figures are as good.
+    integer, parameter :: per_strip = 3
+    ! Tuned [places]: most in half a patch. Origin: capacity; more than 170 strips do with fewer.
+    integer, parameter :: most_places = 256
+    ! Given: at least d and half the triangle in places, where there are fewest strips.
+    integer, parameter :: beyond = 8
+
+contains
+
+    !> Right edges of the strips of a patch, in half-widths from its middle: rising, the last is 1.
+    pure subroutine grade(curve, y_from, y_to, n, edge)
+        type(gap_curve_t), intent(in) :: curve  !! a gap that was set
+        real(wp), intent(in) :: y_from          !! left end of the patch, mm
+        real(wp), intent(in) :: y_to            !! right end, mm
+        integer, intent(in) :: n                !! strips, >= 1
+        real(wp), intent(inout) :: edge(:)      !! (n)
+
+        real(wp), dimension(-most_places:most_places) :: place, slope
+        real(wp), dimension(1 - beyond:2*most_places + beyond) :: bend, narrowed
+        real(wp), dimension(0:most_places) :: to_left, to_right ! strips from the middle, no unit
+        real(wp) :: middle, half, turn, at
+        integer :: m, d, width, i, j, k
+
+        m = min(most_places, (per_strip*n + 1)/2)
+        d = max(1, nint(apart*2*m/n))
+        width = max(1, nint(smoothed*2*m/n))
+        place(0) = 0.0_wp
+        do j = 1, m
+            place(j) = blend(real(j, wp)/m)
+            place(-j) = -place(j)
+        end do
+        middle = 0.5_wp*(y_from + y_to)
+        half = 0.5_wp*(y_to - y_from)
+        call gap_slopes(curve, middle + half*place(-m:m), slope(-m:m))
+        turn = 0.0_wp
+        do j = 1, m
+            turn = turn + (abs(slope(j) - slope(j - 1)) + abs(slope(1 - j) - slope(-j)))
+        end do
+        if (.not. (turn > tiny(turn) .and. turn < huge(turn))) then
+            call grade_plainly(n, edge)
+            return
+        end if
+        do i = 1, 2*m
+            bend(i) = (slope(i - m) - slope(i - m - 1))/((place(i - m) - place(i - m - 1)) &
+                                                         *(0.5_wp*turn))
+        end do
+        call go_on(bend)
+        do i = 1, 2*m
+            narrowed(i) = min(abs(bend(i + d) - bend(i - d)), most_narrowed)
+        end do
+        call go_on(narrowed)
+        to_left(0) = 0.0_wp
+        to_right(0) = 0.0_wp
+        do j = 1, m
+            to_left(j) = to_left(j - 1) + density(narrowed, m + 1 - j)
+            to_right(j) = to_right(j - 1) + density(narrowed, m + j)
+        end do
+        do k = 1, n - 1
+            at = 0.5_wp*((to_right(m) - to_left(m)) + (to_right(m) + to_left(m))*(2*k - n)/n)
+            if (at < 0.0_wp) then
+                edge(k) = -blend(inverse(to_left(:m), -at))
+            else
+                edge(k) = blend(inverse(to_right(:m), at))
+            end if
+        end do
+        edge(n) = 1.0_wp
+
+    contains
+
+        !> Beyond the ends of the patch values are those of its last places.
+        pure subroutine go_on(values)
+            real(wp), intent(inout) :: values(1 - beyond:)
+
+            values(1 - beyond:0) = values(1)
+            values(2*m + 1:2*m + beyond) = values(2*m)
+        end subroutine go_on
+
+        !> How much narrower strips are, smoothed.
+        pure real(wp) function density(narrowed, i)
+            real(wp), intent(in) :: narrowed(1 - beyond:)
+            integer, intent(in) :: i
+
+            integer :: k
+
+            density = width*narrowed(i)
+            do k = 1, width - 1
+                density = density + (width - k)*(narrowed(i - k) + narrowed(i + k))
+            end do
+            density = 1.0_wp + density/width**2
+        end function density
+    end subroutine grade
+
+    !> The same where the curvature of the gap does not change.
+    pure subroutine grade_plainly(n, edge)
+        integer, intent(in) :: n           !! strips, >= 1
+        real(wp), intent(inout) :: edge(:) !! (n)
+
+        integer :: k
+
+        do k = 1, n
+            edge(k) = blend(2.0_wp*k/n - 1.0_wp)
+        end do
+    end subroutine grade_plainly
+
+    !> Strips grow narrower towards the ends of a patch; -1, 0, 1 stay in place.
+    pure real(wp) function blend(s)
+        real(wp), intent(in) :: s
+
+        blend = (1.0_wp - end_grading)*s + end_grading*sin(0.5_wp*pi*s)
+    end function blend
+
+    !> Where sums reach a value, between 0, the first, and 1, the last.
+    pure real(wp) function inverse(sums, value)
+        real(wp), intent(in) :: sums(0:) ! rising, from 0
+        real(wp), intent(in) :: value
+
+        integer :: i, m
+
+        m = ubound(sums, 1)
+        do i = 0, m - 2
+            if (sums(i + 1) >= value) exit
+        end do
+        inverse = (i + (value - sums(i))/(sums(i + 1) - sums(i)))/m
+    end function inverse
+end module faststrip_normal_strip_grading
