@@ -31,7 +31,7 @@ module faststrip_normal_strip_grading
     real(wp), parameter :: apart = 1.5_wp, smoothed = 2.0_wp
     ! Tuned [places]: in a strip, at which the slope of the gap is looked at. Origin: chosen: with
     ! more the figures are as good.
-    integer, parameter :: per_strip = 3
+    integer, parameter :: per_strip = 2
     ! Tuned [places]: most in half a patch. Origin: capacity; more than 170 strips do with fewer.
     integer, parameter :: most_places = 256
     ! Given: at least d and half the triangle in places, where there are fewest strips.
