@@ -83,15 +83,27 @@ contains
         type(contact_strips_t), intent(inout) :: strips !! of the solution, if it settled
         type(normal_result_t), intent(inout) :: result  !! of the solution; costs are added
 
-        integer :: coupling
+        type(settling_t) :: start
+        integer :: coupling, edges
         logical :: done
 
         call begin(level, settling)
+        start = settling
         workspace%graded = .true.
-        do coupling = 1, max_couplings
-            call couple(workspace, compliance, demand, level, settling, strips, result, done)
-            if (done) return
+        ! From far off edges that follow the ends alone succeed more often.
+        do edges = 1, 2
+            do coupling = 1, max_couplings
+                call couple(workspace, compliance, demand, level, settling, strips, result, done)
+                if (done) exit
+            end do
+            if (settling%settled) exit
+            settling = start
+            call forget_edges(workspace, .false.)
+            workspace%carried%known = .false.
+            workspace%newton%kept = .false.
         end do
+        if (workspace%graded .or. .not. settling%settled) return
+        call let_edges_follow(workspace, compliance, demand, level, settling, strips, result)
     end subroutine settle_together
 
     !> Strips between ends that are held, and the ends, in turn.
@@ -105,7 +117,6 @@ contains
         type(contact_strips_t), intent(inout) :: strips !! of the best pass, if it settled
         type(normal_result_t), intent(inout) :: result  !! of the best pass; costs are added
 
-        type(settling_t) :: best
         real(wp) :: tolerance, moved, best_move
         integer :: pass, best_pass, couplings, outcome
         logical :: at_rest, possible, changed, done
@@ -166,12 +177,27 @@ contains
         end do
         settling%settled = best_move <= loose_end_tolerance
         if (.not. settling%settled) return
-        ! Now they may follow it, if that succeeds.
-        best = settling
+        call let_edges_follow(workspace, compliance, demand, level, settling, strips, result)
+    end subroutine settle_in_turn
+
+    !> A solution whose edges follow the ends alone: let them follow the gap, if that succeeds.
+    subroutine let_edges_follow(workspace, compliance, demand, level, settling, strips, result)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(demand_t), intent(in) :: demand
+        type(level_t), intent(in) :: level
+        type(settling_t), intent(inout) :: settling
+        type(contact_strips_t), intent(inout) :: strips
+        type(normal_result_t), intent(inout) :: result
+
+        type(settling_t) :: plain
+        logical :: done
+
+        plain = settling
         call forget_edges(workspace, .true.)
         call couple(workspace, compliance, demand, level, settling, strips, result, done)
-        if (.not. (done .and. settling%settled)) settling = best
-    end subroutine settle_in_turn
+        if (.not. settling%settled) settling = plain
+    end subroutine let_edges_follow
 
     !> Everything but patches and penetration as at the start; share the strips.
     pure subroutine begin(level, settling)

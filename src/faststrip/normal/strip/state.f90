@@ -245,7 +245,6 @@ contains
 
         call remember(workspace, patches)
         n = workspace%strips%n
-        workspace%graded = .true.
         workspace%edge(:n) = workspace%new_edge(:n)
         call position_strips(workspace, patches, n)
     end subroutine renew_edges
