@@ -122,14 +122,14 @@ contains
                     if (evaluations == max_evaluations) return
                     evaluations = evaluations + 1
                     if (follows .and. trial > 1) then
-                        call look_for_edges(workspace, patches, change)
+                        if (moved <= edge_tolerance) call look_for_edges(workspace, patches, moved)
                         call renew_edges(workspace, patches)
+                        moved = 0.0_wp
                     end if
                     call carry(workspace%carried, strips, patches)
                     call count_evaluation(cost, n)
                     size_before = huge(1.0_wp)
                     again = .false.
-                    looked = .false.
                 end if
                 p_scale = maxval(strips%p0(:n))
                 fresh = .not. newton%kept
@@ -185,7 +185,7 @@ contains
                 change = carried_change(workspace%carried, strips)
                 if (left <= finest*tolerance .and. merge(second_order, second_order_apart, patches%n == 1) &
                     *change**2 <= tolerance) then
-                    if (follows) call look_for_edges(workspace, patches, moved)
+                    if (follows .and. .not. looked) call look_for_edges(workspace, patches, moved)
                     if (moved <= edge_tolerance) then
                         outcome = converged
                         exit
