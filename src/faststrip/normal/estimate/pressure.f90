@@ -76,40 +76,42 @@ contains
         real(wp), intent(in) :: depth                !! at which the strips close it, mm
         integer, intent(in) :: from, to              !! strips of a block
 
-        real(wp), dimension(block + 2*reach) :: y, inv2r, height
-        real(wp), dimension(2*reach + 1) :: weight, more
-        real(wp) :: x_squared, free, longest
-        integer :: low, first, last, i, j, k
+        ! In the middle of a strip and at its right edge in turn, the first one left out.
+        real(wp), dimension(2*(block + 2*reach)) :: y, inv2r, height
+        real(wp), dimension(-2*reach:2*reach) :: weight, more
+        real(wp) :: x_squared, free, length
+        integer :: low, here, i, j, k
 
         pressure = 0.0_wp
         low = max(1, from - reach)
         do k = low, min(strips%n, to + reach)
-            i = k - low + 1
+            i = 2*(k - low) + 1
             y(i) = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
+            y(i + 1) = strips%y_right(k)
             call gap_at(curve, y(i), height(i), inv2r(i))
-            inv2r(i) = usable(inv2r(i))
+            call gap_at(curve, y(i + 1), height(i + 1), inv2r(i + 1))
         end do
         do k = from, to
-            i = k - low + 1
-            first = max(low, k - reach)
-            last = min(strips%n, to + reach, k + reach)
+            here = 2*(k - low) + 1
             weight = 0.0_wp
-            do j = first, last
-                if (j == k .or. strips%patch(j) /= strips%patch(k)) cycle
-                weight(j - first + 1) = off_centre_share/(pi**2*compliance) &
-                    *(strips%y_right(j) - strips%y_left(j))/(y(j - low + 1) - y(i))**2
+            more = 0.0_wp
+            do j = -2*reach, 2*reach
+                i = low + (here + j - 1)/2
+                if (j == 0 .or. here + j < 1 .or. i > strips%n) cycle
+                if (strips%patch(i) /= strips%patch(k)) cycle
+                weight(j) = off_centre_share/(pi**2*compliance) &
+                            *(0.5_wp*(strips%y_right(i) - strips%y_left(i)))/(y(here + j) - y(here))**2
+                more(j) = usable(inv2r(here + j)) - usable(inv2r(here))
             end do
-            more(:last - first + 1) = inv2r(first - low + 1:last - low + 1) - inv2r(i)
-            longest = strips%half_length(k)
+            length = strips%half_length(k)
             ! Semi-ellipse and parabola together stay below p0 where the parabola ends below p0/2.
-            if (sum(weight(:last - first + 1)*more(:last - first + 1))*longest**2 &
-                <= 0.5_wp*strips%p0(k)) cycle
+            if (sum(weight*more)*length**2 <= 0.5_wp*strips%p0(k)) cycle
             do j = 1, size(places)
-                x_squared = (places(j)*longest)**2
-                free = max(depth - (height(i) - curve%h_lowest) - inv2r(i)*x_squared, 0.0_wp)
+                x_squared = (places(j)*length)**2
+                free = max(depth - (height(here) - curve%h_lowest) &
+                           - usable(inv2r(here))*x_squared, 0.0_wp)
                 pressure = max(pressure, strips%p0(k)*sqrt(1.0_wp - places(j)**2) &
-                               + sum(weight(:last - first + 1) &
-                                     *min(more(:last - first + 1)*x_squared, free)))
+                               + sum(weight*min(more*x_squared, free)))
             end do
         end do
     end function off_centre_pressure
