@@ -345,6 +345,14 @@ contains
         else if (level%at_once .and. settling%pass == 1) then
             call settle_at_once(workspace, compliance, demand, level%tolerance, settling%solved, &
                                 result%cost, found)
+            if (.not. found .and. workspace%graded) then
+                call forget_edges(workspace, .false.)
+                settling%solved = settling%patches
+                call position_strips(workspace, settling%solved, n)
+                workspace%strips%penetration = settling%penetration
+                call settle_at_once(workspace, compliance, demand, level%tolerance, &
+                                    settling%solved, result%cost, found)
+            end if
         else
             call settle_coupled(workspace, compliance, demand, level%tolerance, max_factorings, &
                                 settling%solved, result%cost, found)

@@ -241,15 +241,16 @@ contains
 
     !> Cut patches into strips where `look_for_edges` found that they belong; pressures and lengths
     !> are taken over.
-    pure subroutine renew_edges(workspace, patches)
+    pure subroutine renew_edges(workspace, patches, graded)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips in these patches
         type(patches_t), intent(inout) :: patches
+        logical, intent(in) :: graded !! do they follow the gap from now on?
 
         integer :: n
 
         call remember(workspace, patches)
         n = workspace%strips%n
-        workspace%graded = .true.
+        workspace%graded = graded
         workspace%edge(:n) = workspace%new_edge(:n)
         call position_strips(workspace, patches, n)
     end subroutine renew_edges
