@@ -14,31 +14,37 @@
 !>
 !> `e` falls with the number of strips; `m` does not, as all strips take their sections for
 !> semi-ellipses. The first-order error of the penetration is a mean of r (reciprocity: weighted by
-!> the pressure of a flat punch). With means over y, and c what the penetration was corrected by
+!> the pressure of a flat punch). With means over y, c what the penetration was corrected by, and n
+!> strips across the patch with the maximum pressure
 !>
-!>     penetration   2.9 |0.28 mean m - 0.23 c| + 0.4 mean |m| + 0.18 rms e
-!>     area          8.5 mean |m| + 1.7 rms e + 0.2/n^2
+!>     penetration   2.5 |0.28 mean m - 0.3 c| + 0.4 mean |m| + 0.24 rms e
+!>     area          9.4 mean |m| + 1.85 rms e + 0.2/n^2
 !>
 !> The maximum pressure may be wrong in its strip, or another strip may carry more. Strip k has
 !>
-!>     d_k = 0.35 |e_k - mean e| (D - h_lowest)/(H l) + 2 u_k
+!>     d_k = 0.3 |e_k - mean e| (D - h_lowest)/(H l) + 1.7 u_k + 0.25 v_k
 !>
-!> more, with e_k the mean of e at its two edges and 1/l = 1/(2w) + 1/[2 pi xd (1 + ln(1 + w/xd))]:
-!> strips shorter than wide are needles, which press in what is about as long as they are, not as
-!> wide; and u_k the pressure of heights that the strip does not resolve
-!> (`faststrip_normal_estimate_unresolved`). Of n strips across the patch with the maximum pressure
+!> more: e_k is the mean of e at its two edges, l what a wave as long as the strip is wide presses
+!> in, 1/l = 1/(2w) + 1/[2 pi xd (1 + ln(1 + w/xd))] (strips much wider than long are needles), u_k
+!> the pressure of heights that the strip does not resolve
+!> (`faststrip_normal_estimate_unresolved`), v_k how far its pressure is from those of its
+!> neighbours. Then
 !>
 !>     pmax = max(d_k/pmax of the strip with the maximum pressure and its neighbours,
 !>                (p0_k + d_k)/pmax - 1 of all strips)
-!>            + 0.4 sum w |m| (D - h_lowest)/(H sum w xd p0) + 0.2/n^2
-!>     and at least 1 - pmax/q
+!>            + 0.38 mean |m| sum w (D - h_lowest)/(H sum w xd p0) + 0.2/n^2
+!>     and at least 3 (q/pmax - 1), at most 1
 !>
-!> The sum is the load that sections which are no semi-ellipses have too much or too little, over
-!> all load. q is a pressure off the centre line (`faststrip_normal_estimate_pressure`). pmax and
-!> area are at least the overlap outside where it is more than a hundredth: what presses there is
-!> not in the solution.
+!> The ratio of sums is the load that sections which are no semi-ellipses have too much or too
+!> little, over all load. q is the largest pressure off the centre line
+!> (`faststrip_normal_estimate_pressure`). pmax and area are at least the overlap outside where it
+!> is more than a hundredth: what presses there is not in the solution.
 !>
-!> All factors are of experience, no bounds in the strict sense.
+!> The factors were fitted so that 97 % of the estimates are at least the error: against NORM on two
+!> grids carried on, with 5, 9, 15 and 31 strips, on 800 contacts of S1002 on 60E1 and 54E1, Hertz
+!> ellipses of a/b = 0.003 to 110, the 20 gaps of the reference and gaps of seeds 1 to 10 of
+!> `faststrip-lab fuzz`; they hold of seeds 51 to 58 as well. They are of experience, no bounds in
+!> the strict sense.
 module faststrip_normal_estimate_errors
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
@@ -68,9 +74,9 @@ module faststrip_normal_estimate_errors
     end type normal_errors_t
 
     ! Tuned [1]: The penetration's factors, see the module's head. Origin: calibrated.
-    real(wp), parameter :: bias_factor = 3.0_wp, bias_section = 0.28_wp, bias_corrected = 0.23_wp
+    real(wp), parameter :: bias_factor = 2.5_wp, bias_section = 0.28_wp, bias_corrected = 0.3_wp
     ! Tuned [1]: The same. Origin: calibrated.
-    real(wp), parameter :: penetration_section = 0.36_wp, penetration_edge = 0.18_wp
+    real(wp), parameter :: penetration_section = 0.4_wp, penetration_edge = 0.24_wp
     ! Tuned [1]: The area's factors. Origin: calibrated.
     real(wp), parameter :: area_section = 9.4_wp, area_edge = 1.85_wp
     ! Tuned [1]: The maximum pressure's factors. Origin: calibrated.
@@ -298,7 +304,8 @@ contains
         least = least_estimate &
                 /count(strips%patch(:strips%n) == strips%patch(sums%peak))**2
         normal_errors%est_err_penetration = &
-            bias_factor*abs(bias_section*sums%section - bias_corrected*(result%correction - 1.0_wp)) &
+            bias_factor*abs(bias_section*sums%section &
+                            - bias_corrected*(result%correction - 1.0_wp)) &
             + penetration_section*sums%section_size + penetration_edge*edge
         normal_errors%est_err_area = area_section*sums%section_size + area_edge*edge + least
         normal_errors%est_err_pmax = max(sums%peak_extra, &

@@ -99,8 +99,8 @@ contains
                 i = low + (here + j - 1)/2
                 if (j == 0 .or. here + j < 1 .or. i > strips%n) cycle
                 if (strips%patch(i) /= strips%patch(k)) cycle
-                weight(j) = off_centre_share/(pi**2*compliance) &
-                            *(0.5_wp*(strips%y_right(i) - strips%y_left(i)))/(y(here + j) - y(here))**2
+                weight(j) = 0.5_wp*(strips%y_right(i) - strips%y_left(i)) &
+                            *off_centre_share/(pi**2*compliance*(y(here + j) - y(here))**2)
                 more(j) = usable(inv2r(here + j)) - usable(inv2r(here))
             end do
             length = strips%half_length(k)

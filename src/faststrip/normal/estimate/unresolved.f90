@@ -13,7 +13,6 @@
 module faststrip_normal_estimate_unresolved
     use faststrip_base_kinds, only: wp, pi
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, first_point_from
-    use faststrip_normal_estimate_samples, only: part_end
     implicit none
     private
 
@@ -47,7 +46,7 @@ contains
         real(wp), intent(in), optional :: least   !! that counts, MPa; otherwise all
 
         real(wp) :: coefficient(most_nodes), counts
-        integer :: from, to, n, m, i
+        integer :: from, to, n, m, i, point(most_points)
 
         from = first_point_from(curve, minval(node))
         to = first_point_from(curve, maxval(node))
@@ -59,13 +58,19 @@ contains
         call divide_differences(curve, node, coefficient(:size(node)))
         n = to - from + 1
         if (n <= most_points) then
-            pressure = response([(from + i - 1, i=1, n)], .true.)
+            point(:n) = [(from + i - 1, i=1, n)]
+            pressure = response(point(:n), .true.)
         else
-            pressure = response([(from + part_end(i - 1, most_points - 1, n - 1), &
-                                  i=1, most_points)], .true.)
-            ! As many before the middle as behind it.
+            ! Counted from both ends, and as many before the middle as behind it: a mirrored gap
+            ! is looked at in the same points.
+            do i = 1, most_points/2
+                point(i) = from + ((i - 1)*(n - 1))/(most_points - 1)
+                point(most_points + 1 - i) = to - (point(i) - from)
+            end do
+            pressure = response(point, .true.)
             m = most_points - modulo(n, 2)
-            pressure = max(pressure, response([((from + to - m + 1)/2 + i - 1, i=1, m)], .false.))
+            point(:m) = [((from + to - m + 1)/2 + i - 1, i=1, m)]
+            pressure = max(pressure, response(point(:m), .false.))
         end if
         pressure = pressure/(pi**2*compliance)
 
