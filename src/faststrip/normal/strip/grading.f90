@@ -3,9 +3,10 @@
 !>
 !> With `s` from -1 to 1, which grows by 2/n from strip to strip, `blend(s)` is the place, in
 !> half-widths of the patch, of an edge where the curvature does not change. Elsewhere strips are
-!> narrower by `1 + V`: V is the difference of the curvature's means in d to the right and d to the
-!> left, over the mean of its size in the patch, and bounded. Means, which are differences of
-!> slopes: at one place the curvature would be noise where the gap has kinks or was measured.
+!> narrower by `1 + V`: V is by how much the curvature's means differ in d to the right, d to the
+!> left and d about the place, over the mean of its size in the patch, and bounded. Means, which are
+!> differences of slopes: at one place the curvature would be noise where the gap has kinks or was
+!> measured.
 !>
 !> So the edges follow from the gap and the patch, smoothly. They are ratios, in which no unit of
 !> length is left, and those of a mirror image are the mirror image of the edges to the last digit:
@@ -86,8 +87,15 @@ contains
         pure real(wp) function narrowing(j)
             integer, intent(in) :: j
 
-            narrowing = 1.0_wp + min(most_narrowed, abs(mean(j - 1, min(j - 1 + d, m)) &
-                                                        - mean(max(j - d, -m), j)))
+            real(wp) :: left, right, about
+            integer :: beside
+
+            beside = (d - 1)/2
+            left = mean(max(j - d, -m), j)
+            right = mean(j - 1, min(j - 1 + d, m))
+            about = mean(max(j - 1 - beside, -m), min(j + beside, m))
+            narrowing = 1.0_wp + min(most_narrowed, max(left, right, about) &
+                                                    - min(left, right, about))
         end function narrowing
 
         !> Mean of the curvature between two places, over that of its size.

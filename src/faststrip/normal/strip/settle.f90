@@ -333,11 +333,13 @@ contains
         else if (level%near .and. settling%pass == 1) then
             call settle_carried(workspace, compliance, demand, level%tolerance, settling%solved, &
                                 result%cost, found)
+            if (.not. found .and. workspace%graded) then
+                call start_plainly(workspace, settling)
+                call settle_carried(workspace, compliance, demand, level%tolerance, &
+                                    settling%solved, result%cost, found)
+            end if
             if (.not. found) then
-                settling%solved = settling%patches
-                call position_strips(workspace, settling%solved, n)
-                workspace%strips%penetration = settling%penetration
-                workspace%newton%kept = .false.
+                call start_plainly(workspace, settling)
                 call settle_coupled(workspace, compliance, demand, level%tolerance, &
                                     merge(few_factorings, max_factorings, level%resumes), &
                                     settling%solved, result%cost, found)
@@ -346,10 +348,7 @@ contains
             call settle_at_once(workspace, compliance, demand, level%tolerance, settling%solved, &
                                 result%cost, found)
             if (.not. found .and. workspace%graded) then
-                call forget_edges(workspace, .false.)
-                settling%solved = settling%patches
-                call position_strips(workspace, settling%solved, n)
-                workspace%strips%penetration = settling%penetration
+                call start_plainly(workspace, settling)
                 call settle_at_once(workspace, compliance, demand, level%tolerance, &
                                     settling%solved, result%cost, found)
             end if
@@ -373,6 +372,22 @@ contains
         call keep(workspace, 0.0_wp, settling, strips, result)
         settling%state = state_done
     end subroutine couple
+
+    !> Start anew from the patches of this pass, with edges that follow the ends alone: from far off
+    !> they succeed more often.
+    pure subroutine start_plainly(workspace, settling)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(settling_t), intent(inout) :: settling
+
+        integer :: n
+
+        call forget_edges(workspace, .false.)
+        settling%solved = settling%patches
+        call position_strips(workspace, settling%solved, n)
+        workspace%strips%penetration = settling%penetration
+        workspace%carried%known = .false.
+        workspace%newton%kept = .false.
+    end subroutine start_plainly
 
     !> Strips and ends were tried together and not found: nothing is left of that but its cost.
     pure subroutine leave_try(workspace, settling)
