@@ -145,7 +145,8 @@ contains
         if (is_error(status)) return
         depth = (result%penetration - curve%h_lowest)/result%correction
         sums%peak = maxloc(strips%p0(:strips%n), dim=1)
-        blocks = (strips%n - 1)/block + 1
+        ! An odd number, so that none ends in the middle and a mirrored solution has the same.
+        blocks = 1 + 2*((strips%n + block - 2)/(2*block - 2))
         do i = 1, blocks
             call add_edges(curve, compliance, strips, depth, &
                            1 + part_end(i - 1, blocks, strips%n), part_end(i, blocks, strips%n), &
@@ -191,7 +192,9 @@ contains
                 normal_errors%overlap_outside = max(normal_errors%overlap_outside, -gap(i))
             end if
         end do
-        edge(:n) = 0.5_wp*(gap(right(:n) - 1) + gap(right(:n)))
+        do i = 1, n
+            edge(i) = 0.5_wp*(gap(right(i) - 1) + gap(right(i)))
+        end do
         mean = sum(width(:n)*edge(:n))/sum(width(:n))
         sums%widths = sums%widths + sum(width(:n))
         do k = from, to
@@ -276,10 +279,12 @@ contains
         real(wp), dimension(most_sections) :: x, y, gap, width
         integer :: i, k, n
 
+        ! In the middle of as many parts, counted from both ends; of an even number of strips an even
+        ! one, as none is in the middle.
         n = min(most_sections, strips%n)
+        n = n - modulo(strips%n - n, 2)
         do i = 1, n
-            ! In the middle of as many parts, counted from both ends.
-            k = (part_end(2*i - 1, 2*n, strips%n - 1)) + 1
+            k = 1 + part_end(2*i - 1, 2*n, strips%n - 1)
             x(i) = sqrt(0.5_wp)*strips%half_length(k)
             y(i) = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
             width(i) = strips%y_right(k) - strips%y_left(k)

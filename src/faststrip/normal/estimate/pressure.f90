@@ -79,7 +79,7 @@ contains
         ! In the middle of a strip and at its right edge in turn, the first one left out.
         real(wp), dimension(2*(block + 2*reach)) :: y, inv2r, height
         real(wp), dimension(-2*reach:2*reach) :: weight, more
-        real(wp) :: x_squared, free, length
+        real(wp) :: x_squared, free, length, width
         integer :: low, here, i, j, k
 
         pressure = 0.0_wp
@@ -99,8 +99,14 @@ contains
                 i = low + (here + j - 1)/2
                 if (j == 0 .or. here + j < 1 .or. i > strips%n) cycle
                 if (strips%patch(i) /= strips%patch(k)) cycle
-                weight(j) = 0.5_wp*(strips%y_right(i) - strips%y_left(i)) &
-                            *off_centre_share/(pi**2*compliance*(y(here + j) - y(here))**2)
+                width = strips%y_right(i) - strips%y_left(i)
+                if (modulo(j, 2) /= 0) then
+                    ! The left end of a patch is not there; neither is the right one.
+                    if (i == last_of_patch(strips, i)) cycle
+                    width = 0.5_wp*(width + (strips%y_right(i + 1) - strips%y_left(i + 1)))
+                end if
+                weight(j) = 0.5_wp*width*off_centre_share &
+                            /(pi**2*compliance*(y(here + j) - y(here))**2)
                 more(j) = usable(inv2r(here + j)) - usable(inv2r(here))
             end do
             length = strips%half_length(k)

@@ -14,7 +14,7 @@ module faststrip_normal_estimate_samples
 
     !> Strips looked at together.
     !> Tuned [strips]. Origin: capacity, on the stack.
-    integer, parameter :: block = 32
+    integer, parameter :: block = 64
     !> Most points sampled together: both edges of each strip of a block, and two places beside each
     !> end of a patch.
     integer, parameter :: most_samples = 6*block

@@ -58,7 +58,9 @@ contains
         call divide_differences(curve, node, coefficient(:size(node)))
         n = to - from + 1
         if (n <= most_points) then
-            point(:n) = [(from + i - 1, i=1, n)]
+            do i = 1, n
+                point(i) = from + i - 1
+            end do
             pressure = response(point(:n), .true.)
         else
             ! Counted from both ends, and as many before the middle as behind it: a mirrored gap
@@ -69,7 +71,9 @@ contains
             end do
             pressure = response(point, .true.)
             m = most_points - modulo(n, 2)
-            point(:m) = [((from + to - m + 1)/2 + i - 1, i=1, m)]
+            do i = 1, m
+                point(i) = (from + to - m + 1)/2 + i - 1
+            end do
             pressure = max(pressure, response(point(:m), .false.))
         end if
         pressure = pressure/(pi**2*compliance)
