@@ -21,11 +21,11 @@ module faststrip_normal_strip_grading
 
     ! Tuned [1]. Origin: chosen for the errors of pmax and area.
     real(wp), parameter :: end_grading = 0.7_wp ! towards the ends; 0: even strips, 1: as the sine
-    ! Tuned [1]. Origin: chosen for the errors of pmax and area of 60 contacts, 30 each of S1002 on
-    ! 60E1 and 54E1: pmax errs by .15 instead of .45 % in the mean; with 3 by .19, with 6 by .15.
+    ! Tuned [1]. Origin: chosen for the errors of pmax of 60 contacts, 30 each of S1002 on 60E1 and
+    ! 54E1: .16 instead of .45 % in the mean; with 3 they are .21, with 6 .15 and the areas worse.
     real(wp), parameter :: most_narrowed = 4.0_wp ! largest V
-    ! Tuned [strips]: d. Origin: as the bound; with 2.3 by .20, with 3.9 by .21.
-    real(wp), parameter :: reach = 3.2_wp
+    ! Tuned [strips]: d. Origin: as the bound; with 2.6 they are .18, with 3.2 .17.
+    real(wp), parameter :: reach = 3.0_wp
     ! Tuned [places]: in a strip, at which the slope of the gap is looked at. Origin: chosen: with
     ! more the figures are as good.
     integer, parameter :: per_strip = 3
@@ -91,8 +91,8 @@ contains
             integer :: beside
 
             beside = (d - 1)/2
-            left = mean(max(j - d, -m), j)
-            right = mean(j - 1, min(j - 1 + d, m))
+            left = mean(max(j - 1 - d, -m), max(j - 1, 1 - m))
+            right = mean(min(j, m - 1), min(j + d, m))
             about = mean(max(j - 1 - beside, -m), min(j + beside, m))
             narrowing = 1.0_wp + min(most_narrowed, max(left, right, about) &
                                                     - min(left, right, about))
