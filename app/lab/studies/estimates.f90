@@ -6,12 +6,8 @@
 !> strips are no reference: all strips share that their sections are taken for semi-ellipses. The
 !> gaps are compared with CONTACT as well, on its grid.
 !>
-!> Most factors of the error estimates were chosen on random contacts of a script, which drew noise,
-!> ripples, necks, slender, hollow and worn gaps and radii that vary along y from distributions of
-!> its own. The random gaps here are those of `faststrip-lab fuzz`, unseen by these factors. Those
-!> of slopes and waves from strip to strip were settled with an eye on the same families, with seed
-!> 11, those of a varying 1/(2R), of wide strips and of load with 12, 13 and 21; the gaps here are
-!> of another seed.
+!> The factors of the error estimates were fitted to contacts of wheels on rails and to random gaps of
+!> `faststrip-lab fuzz`, seeds 1 to 10; the gaps here are of another seed.
 module faststrip_lab_studies_estimates
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok, st_conformal

@@ -1,172 +1,124 @@
-!> The pressure that the residuals of a strip ask for: the terms of
-!> `faststrip_normal_estimate_errors` for one strip.
+!> Pressures beyond those of a strip solution: of heights that a strip does not resolve, and off the
+!> centre line.
+!>
+!> At x the gap differs from the centre line's by A(y) x^2. A strip whose A is much smaller than
+!> that of its neighbours is long, and at x beyond their tips it stands out of the surface: it has
+!> an edge there, with a pressure that may exceed that of the centre line by much. It is in plane
+!> strain along y with
+!>
+!>     p(x) = 1/(pi^2 H) int min([A(y') - A(y)] x^2, u(x, y))/(y' - y)^2 dy'.
+!>
+!> Where A is larger the surface falls back behind the gap and is free, but never by more than it
+!> was pressed in, u = D - h - A x^2: pressures press in all around them.
 module faststrip_normal_estimate_pressure
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: largest_size
-    use faststrip_geometry_gap_curve, only: gap_curve_t
-    use faststrip_normal_estimate_samples, only: samples_t
-    use faststrip_normal_estimate_longitudinal, only: inv2r_samples_t
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
+    use faststrip_normal_estimate_samples, only: usable, block
+    use faststrip_normal_estimate_unresolved, only: unresolved_pressure, most_nodes
     use faststrip_normal_strips, only: contact_strips_t, starts_patch, last_of_patch
-    use faststrip_normal_estimate_unresolved, only: unresolved_pressure, &
-                                                    unresolved_pressure_growth, most_nodes
     implicit none
     private
 
-    public :: missing_pressure, section_load, inv2r_about, find_unresolved
-    public :: unresolved_factor
+    public :: unresolved_in, off_centre_pressure
 
-    ! Tuned [1]: The maximum pressure's, of gaps at edges of strips. Origin: calibrated, see the
-    ! module's head.
-    real(wp), parameter :: edge_factor = 0.3_wp, slope_factor = 0.35_wp
-    ! Tuned [1]: The maximum pressure's, of gaps in sections. Origin: calibrated, see the module's
-    ! head.
-    real(wp), parameter :: section_factor = 0.45_wp, section_change = 0.5_wp
-    !> Tuned [1]. Origin: calibrated, see the head of `faststrip_normal_estimate_errors`.
-    real(wp), parameter :: unresolved_factor = 1.1_wp !! of heights that a strip does not resolve
-    ! Tuned [1]: The maximum pressure's, of waves. Origin: calibrated, see the head of
-    ! `faststrip_normal_estimate_errors`.
-    real(wp), parameter :: wave_factor = 0.012_wp
+    ! Strips on both sides that are looked at.
+    ! Tuned [strips]. Origin: cost.
+    integer, parameter :: reach = 4
+    ! Where the pressure off the centre line is looked for, over the half-length.
+    ! Tuned [1]. Origin: chosen.
+    real(wp), parameter :: places(3) = [0.5_wp, 0.7_wp, 0.9_wp]
+    ! Share of the pressure above that counts: u is an upper bound, as the free surface stays
+    ! pressed in somewhat. With 0.5 to 0.7 random gaps whose A falls by steps are told from those
+    ! whose maximum pressure stays on the centre line.
+    ! Tuned [1]. Origin: as said with it.
+    real(wp), parameter :: off_centre_share = 0.6_wp
 
 contains
 
-    !> The pressure that the gaps sampled about a strip ask for beyond its own, MPa.
-    pure real(wp) function missing_pressure(compliance, strips, depth, k, i, samples, unresolved) &
-        result(pressure)
-        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
-        type(contact_strips_t), intent(in) :: strips !! the solution
-        real(wp), intent(in) :: depth                !! D - h_lowest, mm
-        integer, intent(in) :: k, i                  !! the strip, and where its samples are
-        type(samples_t), intent(in) :: samples       !! of its block
-        real(wp), intent(in) :: unresolved           !! pressure of `find_unresolved`, MPa
-
-        real(wp) :: edge, width, per_width, per_wave
-        real(wp), dimension(-1:1) :: middle, slope
-        logical :: has_left, has_right
-        integer :: j
-
-        edge = 0.5_wp*(samples%left(i) + samples%right(i))
-        do j = -1, 1
-            middle(j) = samples%middle(i + j)
-            slope(j) = 0.5_wp*(samples%right(i + j) - samples%left(i + j))
-        end do
-        has_left = .not. starts_patch(strips, k)
-        has_right = k < last_of_patch(strips, k)
-        width = strips%y_right(k) - strips%y_left(k)
-        per_width = depth/(2.0_wp*compliance*width)
-        per_wave = per_width + depth/(2.0_wp*pi*compliance*strips%half_length(k) &
-                                      *(1.0_wp + log(1.0_wp + width/strips%half_length(k))))
-        pressure = per_wave*(edge_factor*abs(edge) &
-                             + slope_factor*change(slope, has_left, has_right)) &
-                   + per_width*section_change*change(middle, has_left, has_right) &
-                   + section_factor*abs(middle(0))*depth/(compliance*strips%half_length(k)) &
-                   + unresolved_factor*unresolved + wave_factor*pressure_wave(strips, k)
-    end function missing_pressure
-
-    !> Load per width that a section which is no semi-ellipse has too much or too little, over |m|,
-    !> N/mm.
-    pure real(wp) function section_load(compliance, depth)
-        real(wp), intent(in) :: compliance !! H of eq. (4), 1/MPa
-        real(wp), intent(in) :: depth      !! D - h_lowest, mm
-
-        section_load = section_factor*depth/compliance
-    end function section_load
-
-    !> A about strip k, whose samples are number i.
-    pure type(inv2r_samples_t) function inv2r_about(strips, k, i, samples) result(inv2r)
-        type(contact_strips_t), intent(in) :: strips !! the solution
-        integer, intent(in) :: k, i                  !! the strip, and where its samples are
-        type(samples_t), intent(in) :: samples       !! of its block
-
-        inv2r%middle = samples%inv2r(i)
-        inv2r%right = samples%inv2r_right(i)
-        inv2r%before = inv2r%middle
-        inv2r%behind = inv2r%middle
-        inv2r%left = inv2r%middle
-        if (.not. starts_patch(strips, k)) then
-            inv2r%before = samples%inv2r(i - 1)
-            inv2r%left = samples%inv2r_right(i - 1)
-        end if
-        if (k < last_of_patch(strips, k)) then
-            inv2r%behind = samples%inv2r(i + 1)
-        else
-            ! Nothing presses at the end of a patch: A there is of no matter, left or right.
-            inv2r%right = inv2r%middle
-        end if
-    end function inv2r_about
-
-    !> Second difference of the pressures at a strip, MPa; at an end of the patch nothing.
-    pure real(wp) function pressure_bend(strips, k) result(bend)
-        type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: k
-
-        bend = 0.0_wp
-        if (starts_patch(strips, k) .or. k == last_of_patch(strips, k)) return
-        bend = (strips%p0(k - 1) - strips%p0(k)) + (strips%p0(k + 1) - strips%p0(k))
-    end function pressure_bend
-
-    !> Size of the fourth difference of the pressures at a strip, MPa; beside an end nothing.
-    pure real(wp) function pressure_wave(strips, k) result(wave)
-        type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: k
-
-        wave = 0.0_wp
-        if (starts_patch(strips, k) .or. k == last_of_patch(strips, k)) return
-        if (starts_patch(strips, k - 1) .or. k + 1 == last_of_patch(strips, k)) return
-        wave = abs((pressure_bend(strips, k - 1) - pressure_bend(strips, k)) &
-                   + (pressure_bend(strips, k + 1) - pressure_bend(strips, k)))
-    end function pressure_wave
-
-    !> The pressure that heights in strip k ask for which it does not resolve, and how far a
-    !> longitudinal term that it does not resolve raises the maximum pressure above its own. The
-    !> smooth curve meets the gap where it is sampled: in its middle, at its edges and in its
+    !> The pressure that heights in strip k ask for which it does not resolve, MPa, if it is not
+    !> less than `least`. The smooth curve meets the gap in its middle, at its edges and in its
     !> neighbours' middles.
-    pure subroutine find_unresolved(curve, compliance, strips, k, pressure, rise)
+    pure real(wp) function unresolved_in(curve, compliance, strips, k, least) result(pressure)
         type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         type(contact_strips_t), intent(in) :: strips !! the solution
         integer, intent(in) :: k                     !! the strip
-        real(wp), intent(out) :: pressure, rise      !! MPa
+        real(wp), intent(in) :: least                !! that counts, MPa
 
-        real(wp) :: node(most_nodes), tip, half
+        real(wp) :: node(most_nodes)
+        logical :: has_left, has_right
         integer :: n
 
         associate (left => strips%y_left(:strips%n), right => strips%y_right(:strips%n))
+            has_left = .not. starts_patch(strips, k)
+            has_right = k < last_of_patch(strips, k)
             n = 3
-            node(1) = left(k)
-            node(2) = 0.5_wp*(left(k) + right(k))
-            node(3) = right(k)
-            if (.not. starts_patch(strips, k)) then
-                n = n + 1
-                node(n) = 0.5_wp*(left(k - 1) + right(k - 1))
+            node(:3) = [left(k), 0.5_wp*(left(k) + right(k)), right(k)]
+            if (has_left .or. has_right) then
+                ! At an end of the patch the neighbour's other edge serves instead.
+                n = 5
+                if (has_left) node(4) = 0.5_wp*(left(k - 1) + right(k - 1))
+                if (has_right) node(5) = 0.5_wp*(left(k + 1) + right(k + 1))
+                if (.not. has_left) node(4) = right(k + 1)
+                if (.not. has_right) node(5) = left(k - 1)
             end if
-            if (k < last_of_patch(strips, k)) then
-                n = n + 1
-                node(n) = 0.5_wp*(left(k + 1) + right(k + 1))
-            end if
-            ! At an end of the patch the neighbour's other edge serves instead.
-            if (n == 4 .and. starts_patch(strips, k)) node(5) = right(k + 1)
-            if (n == 4 .and. .not. starts_patch(strips, k)) node(5) = left(k - 1)
-            if (n == 4) n = n + 1
-            pressure = unresolved_pressure(curve, compliance, left(k), right(k), node(:n))
-            tip = unresolved_pressure_growth(curve, compliance, left(k), right(k), node(:n)) &
-                  *min(strips%half_length(k), largest_size)**2
+            pressure = unresolved_pressure(curve, compliance, left(k), right(k), node(:n), least)
         end associate
-        half = 0.5_wp*max(strips%p0(k), 0.0_wp)
-        rise = 0.0_wp
-        if (tip > half) rise = tip*(1.0_wp - half/tip)**2
-    end subroutine find_unresolved
+    end function unresolved_in
 
-    !> How far the middle one of three values is from the mean of the outer ones; at an end from the
-    !> straight line on, which is nothing; alone its size.
-    pure real(wp) function change(values, has_left, has_right)
-        real(wp), intent(in) :: values(-1:1)
-        logical, intent(in) :: has_left, has_right
+    !> The largest pressure of strips `from` to `to` off the centre line, MPa; zero where A varies
+    !> so little that it cannot be there.
+    pure real(wp) function off_centre_pressure(curve, compliance, strips, depth, from, to) &
+        result(pressure)
+        type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        type(contact_strips_t), intent(in) :: strips !! the solution
+        real(wp), intent(in) :: depth                !! at which the strips close it, mm
+        integer, intent(in) :: from, to              !! strips of a block
 
-        change = 0.0_wp
-        if (has_left .and. has_right) then
-            change = abs(values(0) - 0.5_wp*(values(-1) + values(1)))
-        else if (.not. (has_left .or. has_right)) then
-            change = abs(values(0))
-        end if
-    end function change
+        ! In the middle of a strip and at its right edge in turn, the first one left out.
+        real(wp), dimension(2*(block + 2*reach)) :: y, inv2r, height
+        real(wp), dimension(-2*reach:2*reach) :: weight, more
+        real(wp) :: x_squared, free, length, width
+        integer :: low, here, i, j, k
+
+        pressure = 0.0_wp
+        low = max(1, from - reach)
+        do k = low, min(strips%n, to + reach)
+            i = 2*(k - low) + 1
+            y(i) = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
+            y(i + 1) = strips%y_right(k)
+            call gap_at(curve, y(i), height(i), inv2r(i))
+            call gap_at(curve, y(i + 1), height(i + 1), inv2r(i + 1))
+        end do
+        do k = from, to
+            here = 2*(k - low) + 1
+            weight = 0.0_wp
+            more = 0.0_wp
+            do j = -2*reach, 2*reach
+                i = low + (here + j - 1)/2
+                if (j == 0 .or. here + j < 1 .or. i > strips%n) cycle
+                if (strips%patch(i) /= strips%patch(k)) cycle
+                width = strips%y_right(i) - strips%y_left(i)
+                if (modulo(j, 2) /= 0) then
+                    ! The left end of a patch is not there; neither is the right one.
+                    if (i == last_of_patch(strips, i)) cycle
+                    width = 0.5_wp*(width + (strips%y_right(i + 1) - strips%y_left(i + 1)))
+                end if
+                weight(j) = 0.5_wp*width*off_centre_share &
+                            /(pi**2*compliance*(y(here + j) - y(here))**2)
+                more(j) = usable(inv2r(here + j)) - usable(inv2r(here))
+            end do
+            length = strips%half_length(k)
+            ! Semi-ellipse and parabola together stay below p0 where the parabola ends below p0/2.
+            if (sum(weight*more)*length**2 <= 0.5_wp*strips%p0(k)) cycle
+            do j = 1, size(places)
+                x_squared = (places(j)*length)**2
+                free = max(depth - (height(here) - curve%h_lowest) &
+                           - usable(inv2r(here))*x_squared, 0.0_wp)
+                pressure = max(pressure, strips%p0(k)*sqrt(1.0_wp - places(j)**2) &
+                               + sum(weight*min(more*x_squared, free)))
+            end do
+        end do
+    end function off_centre_pressure
 end module faststrip_normal_estimate_pressure
