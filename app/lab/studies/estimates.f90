@@ -6,8 +6,8 @@
 !> strips are no reference: all strips share that their sections are taken for semi-ellipses. The
 !> gaps are compared with CONTACT as well, on its grid.
 !>
-!> The factors of the error estimates were fitted to contacts of wheels on rails and to random gaps of
-!> `faststrip-lab fuzz`, seeds 1 to 10; the gaps here are of another seed.
+!> The factors of the error estimates were fitted to contacts of wheels on rails and to random gaps
+!> of `faststrip-lab fuzz`, seeds 1 to 10; the gaps here are of another seed.
 module faststrip_lab_studies_estimates
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, st_ok, st_conformal

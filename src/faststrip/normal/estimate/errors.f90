@@ -279,8 +279,8 @@ contains
         real(wp), dimension(most_sections) :: x, y, gap, width
         integer :: i, k, n
 
-        ! In the middle of as many parts, counted from both ends; of an even number of strips an even
-        ! one, as none is in the middle.
+        ! In the middle of as many parts, counted from both ends; of an even number of strips an
+        ! even one, as none is in the middle.
         n = min(most_sections, strips%n)
         n = n - modulo(strips%n - n, 2)
         do i = 1, n
