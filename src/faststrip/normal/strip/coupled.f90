@@ -20,8 +20,8 @@ module faststrip_normal_strip_coupled
     use faststrip_normal_strip_patches, only: patches_t, max_patches
     use faststrip_normal_strip_newton, only: newton_workspace_t, most_updates
     use faststrip_normal_strip_end_unknowns, only: end_t, list_ends, shift_ends, in_order
-    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, position_strips, &
-                                            look_for_edges, renew_edges
+    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, look_for_edges, &
+                                            renew_edges
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private
@@ -128,7 +128,9 @@ contains
             if (change <= edge_tolerance) exit
             solved = patches
             penetration = workspace%strips%penetration
-            workspace%kept_edge(:n) = workspace%edge(:n)
+            workspace%kept(:n, 1) = workspace%edge(:n)
+            workspace%kept(:n, 2) = workspace%strips%p0(:n)
+            workspace%kept(:n, 3) = workspace%strips%half_length(:n)
             workspace%new_edge(:n) = workspace%edge(:n) &
                                      + share*(workspace%new_edge(:n) - workspace%edge(:n))
             call renew_edges(workspace, patches, share >= 1.0_wp)
@@ -141,8 +143,10 @@ contains
                 share = part*share
                 patches = solved
                 workspace%graded = .false.
-                workspace%edge(:n) = workspace%kept_edge(:n)
-                call position_strips(workspace, patches, n)
+                workspace%edge(:n) = workspace%kept(:n, 1)
+                call position_edges(workspace, patches)
+                workspace%strips%p0(:n) = workspace%kept(:n, 2)
+                workspace%strips%half_length(:n) = workspace%kept(:n, 3)
                 workspace%strips%penetration = penetration
                 workspace%carried%known = .false.
                 workspace%newton%kept = .false.

@@ -50,7 +50,7 @@ module faststrip_normal_strip_state
         integer :: n_graded(max_patches) = 0 !! strips of patches whose `edge` is known
         real(wp), allocatable :: edge(:)     !! right edges of strips in half-widths of their patch
         real(wp), allocatable :: new_edge(:) !! those of the patches where they are
-        real(wp), allocatable :: kept_edge(:) !! those of a solution before
+        real(wp), allocatable :: kept(:, :)  !! of a solution before: edges, pressures, lengths
         real(wp) :: old_inv2r = 1.0_wp !! the unit of A in `old_half_length`, 1/mm: one of the
                                        !! strips', so that the unit of length does not matter
     end type strip_workspace_t
@@ -82,10 +82,10 @@ contains
         call reserve_pass_strips(workspace%strips, max_strips)
         if (allocated(workspace%old_p0)) &
             deallocate (workspace%old_eta, workspace%old_p0, workspace%old_half_length, &
-                        workspace%edge, workspace%new_edge, workspace%kept_edge)
+                        workspace%edge, workspace%new_edge, workspace%kept)
         allocate (workspace%old_eta(max_strips), workspace%old_p0(max_strips), &
                   workspace%old_half_length(max_strips), workspace%edge(max_strips), &
-                  workspace%new_edge(max_strips), workspace%kept_edge(max_strips), source=0.0_wp)
+                  workspace%new_edge(max_strips), workspace%kept(max_strips, 3), source=0.0_wp)
         workspace%n_graded = 0
         workspace%max_strips = max_strips
     end subroutine reserve_strip_workspace
