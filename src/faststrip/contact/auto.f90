@@ -41,8 +41,8 @@ module faststrip_contact_auto
 
     ! Most steps by the core: grids may follow.
     integer, parameter :: most_own_steps = most_steps - most_grids
-    ! Tuned [strips]: Strips that find the patches. Origin: time: fewer are no cheaper.
-    integer, parameter :: first_strips = 5
+    ! Tuned [strips]: Strips of the first answer. Origin: fewer are hardly cheaper.
+    integer, parameter :: first_strips = 7
     ! Strips of a Hertz ellipse, which cost next to nothing; least points along a strip, which are
     ! cheap.
     integer, parameter :: hertz_strips = usual_strips, least_points = usual_strips
@@ -67,12 +67,10 @@ module faststrip_contact_auto
     ! from 5 to 15 strips, 1.6 from 15 to 31, 2.5 from there to 47; 2 sends contacts of `./run net`
     ! from strips to grids.
     real(wp), parameter :: time_order = 1.6_wp
-    ! Tuned [us]: Time of strips by what they cost: always, of a step, of an influence coefficient
-    ! with or without derivatives; of the estimate for a pair of strips. Origin: 58 contacts with 5
-    ! to 61 strips, of which nine in ten are within a third. Counts tell it alike on every machine,
-    ! however busy.
-    real(wp), parameter :: always_us = 40.0_wp, step_us = 3.6_wp, number_us = 0.058_wp, &
-                           pair_us = 0.36_wp
+    ! Tuned [us]: Time of strips by what they cost: always, of a step, of an influence coefficient.
+    ! Origin: 20 contacts with 5 to 61 strips, with their estimates: nine in ten are within a third.
+    ! Counts tell it alike on every machine, however busy.
+    real(wp), parameter :: always_us = 22.0_wp, step_us = 1.0_wp, number_us = 0.055_wp
     ! Tuned [1]: Time of the first strips over that of an ellipse. Origin: measured.
     real(wp), parameter :: strips_over_ellipse = 8.0_wp
 
@@ -441,9 +439,9 @@ contains
         fall%normal = step%methods%normal
         fall%across = step%methods%strips_per_patch
         fall%estimate = step%estimate
-        associate (cost => search%last%normal%cost, n => workspace%strips%n)
-            fall%us = always_us + step_us*cost%iterations + number_us*cost%values &
-                      + number_us*cost%gradients + pair_us*real(n, wp)**2
+        associate (cost => search%last%normal%cost)
+            fall%us = always_us + step_us*cost%iterations &
+                      + number_us*(cost%values + cost%gradients)
         end associate
         if (needs_forces(search%wanted%target)) then
             fall%least = least_estimate(search, workspace, fall)

@@ -93,14 +93,15 @@ contains
 
         type(plan_t) :: plan
         type(settling_t) :: settling
-        integer :: way, level
+        integer :: way, first_way, level
         logical :: in_doubt, found
 
         call forget_lattice_errors(workspace%lattice)
         plan = level_plan(options%strips_per_patch)
         n_settled = 0
         settling%settled = .false.
-        do way = merge(from_last, from_level, options%warm_start .and. workspace%old%n > 0), few_first
+        first_way = merge(from_last, from_level, options%warm_start .and. workspace%old%n > 0)
+        do way = first_way, few_first
             call begin(workspace, compliance, demand, way, settling, in_doubt, found)
             if (.not. found) cycle
             if (way == from_last) then

@@ -1,8 +1,8 @@
 !> One number of strips, from a start to a solution: strips and ends together, or ends in turn.
 !>
 !> Together (`faststrip_normal_strip_converge`) is the usual way. What then overlaps beside the
-!> patches joins them, and what has met merges, until nothing changes. In turn, strips are solved for
-!> between ends that are held, then the ends move; strips that leave are cut off and split their
+!> patches joins them, and what has met merges, until nothing changes. In turn, strips are solved
+!> for between ends that are held, then the ends move; strips that leave are cut off and split their
 !> patch. From near enough strips and ends are tried together again. A pass whose ends move little
 !> more may stand.
 module faststrip_normal_strip_settle
@@ -14,8 +14,8 @@ module faststrip_normal_strip_settle
     use faststrip_normal_strip_figures, only: hand_over, summarize, correction_of
     use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
                                               free_ends, drop_slivers
-    use faststrip_normal_strip_state, only: strip_workspace_t, position_strips, remember, &
-                                            forget_edges
+    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, &
+                                            position_strips, remember, forget_edges
     use faststrip_normal_types, only: normal_result_t, demand_t, cost_t
     implicit none
     private
@@ -196,7 +196,18 @@ contains
         plain = settling
         call forget_edges(workspace, .true.)
         call couple(workspace, compliance, demand, level, settling, strips, result, done)
-        if (.not. settling%settled) settling = plain
+        if (settling%settled) return
+        ! As it was.
+        settling = plain
+        call forget_edges(workspace, .false.)
+        workspace%strips%n = strips%n
+        workspace%strips%penetration = settling%penetration
+        workspace%strips%p0(:strips%n) = strips%p0(:strips%n)
+        workspace%strips%half_length(:strips%n) = strips%half_length(:strips%n)
+        call position_edges(workspace, settling%patches)
+        call remember(workspace, settling%patches)
+        workspace%carried%known = .false.
+        workspace%newton%kept = .false.
     end subroutine let_edges_follow
 
     !> Everything but patches and penetration as at the start; share the strips.
