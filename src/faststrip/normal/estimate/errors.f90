@@ -36,9 +36,9 @@
 !>     and at least 3 (q/pmax - 1), at most 1
 !>
 !> The ratio of sums is the load that sections which are no semi-ellipses have too much or too
-!> little, over all load. q is the largest pressure off the centre line
-!> (`faststrip_normal_estimate_pressure`). pmax and area are at least the overlap outside where it
-!> is more than a hundredth: what presses there is not in the solution.
+!> little, over all load. q is the largest pressure that a longitudinal term A which varies along y
+!> may mean (`faststrip_normal_estimate_pressure`). pmax and area are at least the overlap outside
+!> where it is more than a hundredth: what presses there is not in the solution.
 !>
 !> The factors were fitted so that 97 % of the estimates are at least the error: against NORM on two
 !> grids carried on, with 5, 9, 15 and 31 strips, on 800 contacts of S1002 on 60E1 and 54E1, Hertz
@@ -55,7 +55,7 @@ module faststrip_normal_estimate_errors
     use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_cells_overlap, only: named_overlap
     use faststrip_normal_estimate_outside, only: look_elsewhere, is_outside
-    use faststrip_normal_estimate_pressure, only: unresolved_in, off_centre_pressure
+    use faststrip_normal_estimate_pressure, only: unresolved_in, longitudinal_pressure
     use faststrip_normal_estimate_samples, only: block, most_samples, sample, part_end
     use faststrip_normal_strips, only: contact_strips_t, starts_patch
     use faststrip_normal_types, only: normal_result_t
@@ -81,8 +81,8 @@ module faststrip_normal_estimate_errors
     real(wp), parameter :: area_section = 9.4_wp, area_edge = 1.85_wp
     ! Tuned [1]: The maximum pressure's factors. Origin: calibrated.
     real(wp), parameter :: edge_factor = 0.3_wp, wave_factor = 0.25_wp, load_factor = 0.38_wp
-    ! Tuned [1]: The same, of unresolved heights and off the centre line. Origin: calibrated.
-    real(wp), parameter :: unresolved_factor = 1.7_wp, off_centre_factor = 3.0_wp
+    ! Tuned [1]: The same, of unresolved heights and of A. Origin: calibrated.
+    real(wp), parameter :: unresolved_factor = 1.7_wp, longitudinal_factor = 3.0_wp
     ! Tuned [1]: Least estimate of area and of maximum pressure, times n squared. Origin:
     ! calibrated.
     real(wp), parameter :: least_estimate = 0.2_wp
@@ -108,7 +108,7 @@ module faststrip_normal_estimate_errors
         real(wp) :: loads = 0.0_wp  ! width times length times pressure, N
         real(wp) :: peak_extra = 0.0_wp ! pressure that the peak and its neighbours ask for, MPa
         real(wp) :: largest_p0 = 0.0_wp ! with what its strip asks for, MPa
-        real(wp) :: off_centre = 0.0_wp ! off the centre line, MPa
+        real(wp) :: longitudinal = 0.0_wp ! that a varying A may mean, MPa
     end type sums_t
 
     !> Places on the centre line.
@@ -211,8 +211,8 @@ contains
             if (abs(k - sums%peak) <= 1 .and. strips%patch(k) == strips%patch(sums%peak)) &
                 sums%peak_extra = max(sums%peak_extra, extra)
         end do
-        sums%off_centre = max(sums%off_centre, &
-                              off_centre_pressure(curve, compliance, strips, depth, from, to))
+        sums%longitudinal = max(sums%longitudinal, &
+                              longitudinal_pressure(curve, compliance, strips, depth, from, to))
     end subroutine add_edges
 
     !> More points.
@@ -317,7 +317,7 @@ contains
                                          sums%largest_p0 - strips%p0(sums%peak))/result%pmax &
             + load_factor*sums%section_size*sums%widths*(per_length/sums%loads) + least
         normal_errors%est_err_pmax = max(normal_errors%est_err_pmax, min(1.0_wp, &
-            off_centre_factor*max(sums%off_centre/result%pmax - 1.0_wp, 0.0_wp)))
+            longitudinal_factor*max(sums%longitudinal/result%pmax - 1.0_wp, 0.0_wp)))
         if (normal_errors%overlap_outside > named_overlap) then
             normal_errors%est_err_pmax = max(normal_errors%est_err_pmax, &
                                              normal_errors%overlap_outside)

@@ -1,5 +1,10 @@
-!> Pressures beyond those of a strip solution: of heights that a strip does not resolve, and off the
-!> centre line.
+!> Pressures beyond those of a strip solution: of heights that a strip does not resolve, and where
+!> the longitudinal term A = 1/(2R) varies along y.
+!>
+!> In strips that are short beside their width the contact is one of plane strain along x, whose
+!> line load hardly changes along y. Its maximum pressure goes with sqrt(A), so that A at an edge
+!> above the line through the middles on both sides means a pressure above theirs. In long strips A
+!> moves the tips and leaves the pressure on the centre line alone: 1/(1 + xd/w).
 !>
 !> At x the gap differs from the centre line's by A(y) x^2. A strip whose A is much smaller than
 !> that of its neighbours is long, and at x beyond their tips it stands out of the surface: it has
@@ -19,7 +24,7 @@ module faststrip_normal_estimate_pressure
     implicit none
     private
 
-    public :: unresolved_in, off_centre_pressure
+    public :: unresolved_in, longitudinal_pressure
 
     ! Strips on both sides that are looked at.
     ! Tuned [strips]. Origin: cost.
@@ -66,9 +71,8 @@ contains
         end associate
     end function unresolved_in
 
-    !> The largest pressure of strips `from` to `to` off the centre line, MPa; zero where A varies
-    !> so little that it cannot be there.
-    pure real(wp) function off_centre_pressure(curve, compliance, strips, depth, from, to) &
+    !> The largest pressure of strips `from` to `to`, on the centre line or off it, MPa.
+    pure real(wp) function longitudinal_pressure(curve, compliance, strips, depth, from, to) &
         result(pressure)
         type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
@@ -79,7 +83,7 @@ contains
         ! In the middle of a strip and at its right edge in turn, the first one left out.
         real(wp), dimension(2*(block + 2*reach)) :: y, inv2r, height
         real(wp), dimension(-2*reach:2*reach) :: weight, more
-        real(wp) :: x_squared, free, length, width
+        real(wp) :: x_squared, free, length, width, ratio
         integer :: low, here, i, j, k
 
         pressure = 0.0_wp
@@ -110,6 +114,16 @@ contains
                 more(j) = usable(inv2r(here + j)) - usable(inv2r(here))
             end do
             length = strips%half_length(k)
+            ratio = 1.0_wp
+            do j = -1, 1, 2
+                ! Beyond the edge lies a strip of the patch.
+                if (weight(2*j) > 0.0_wp) ratio = max(ratio, usable(inv2r(here + j)) &
+                    /(usable(inv2r(here)) + more(2*j)*((y(here + j) - y(here)) &
+                                                       /(y(here + 2*j) - y(here)))))
+            end do
+            width = strips%y_right(k) - strips%y_left(k)
+            pressure = max(pressure, strips%p0(k) &
+                           *(1.0_wp + (sqrt(ratio) - 1.0_wp)/(1.0_wp + length/width)))
             ! Semi-ellipse and parabola together stay below p0 where the parabola ends below p0/2.
             if (sum(weight*more)*length**2 <= 0.5_wp*strips%p0(k)) cycle
             do j = 1, size(places)
@@ -120,5 +134,5 @@ contains
                                + sum(weight*min(more*x_squared, free)))
             end do
         end do
-    end function off_centre_pressure
+    end function longitudinal_pressure
 end module faststrip_normal_estimate_pressure
