@@ -18,7 +18,7 @@ module faststrip_normal_strip_levels
     use faststrip_normal_strip_settle, only: level_t, settling_t, settle_together, &
                                              settle_in_turn
     use faststrip_normal_strip_start, only: start_patches, resume_patches
-    use faststrip_normal_strip_state, only: strip_workspace_t
+    use faststrip_normal_strip_state, only: strip_workspace_t, forget_edges
     use faststrip_normal_types, only: normal_result_t, demand_t
     implicit none
     private
@@ -154,6 +154,7 @@ contains
         workspace%old%n = 0
         workspace%carried%known = .false.
         workspace%newton%kept = .false.
+        call forget_edges(workspace, .true.)
         in_doubt = way == from_row .or. way == row_in_turn
         if (in_doubt) call find_patches(workspace, compliance, demand, settling%patches, &
                                         settling%penetration, found)
