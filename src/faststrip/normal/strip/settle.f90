@@ -15,7 +15,8 @@ module faststrip_normal_strip_settle
     use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
                                               free_ends, drop_slivers
     use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, &
-                                            position_strips, remember, forget_edges
+                                            position_strips, remember, forget_edges, &
+                                            look_for_edges, take_edges, know_edges
     use faststrip_normal_types, only: normal_result_t, demand_t, cost_t
     implicit none
     private
@@ -50,6 +51,10 @@ module faststrip_normal_strip_settle
     ! other: what is left then is far below what the ends' moves change.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: far_tolerance = 0.1_wp, near_tolerance = 1.0e-2_wp
+    ! Tuned [1]: of the way of edges to where they belong, where all of it is too far; most parts.
+    ! Origin: chosen; safeguard.
+    real(wp), parameter :: first_part = 0.25_wp
+    integer, parameter :: most_parts = 4
     ! Tuned [1]. Origin: safeguard: above rounding.
     real(wp), parameter :: sliver = 1.0e-10_wp ! of the gap's range: too narrow for a patch
 
@@ -180,7 +185,8 @@ contains
         call let_edges_follow(workspace, compliance, demand, level, settling, strips, result)
     end subroutine settle_in_turn
 
-    !> A solution whose edges follow the ends alone: let them follow the gap, if that succeeds.
+    !> A solution whose edges follow the ends alone: let them follow the gap, at once or part by
+    !> part. Where that does not succeed the last solution stays.
     subroutine let_edges_follow(workspace, compliance, demand, level, settling, strips, result)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
@@ -190,25 +196,49 @@ contains
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
 
-        type(settling_t) :: plain
+        type(settling_t) :: last
+        real(wp) :: share, moved
+        integer :: i
         logical :: done
 
-        plain = settling
-        call forget_edges(workspace, .true.)
-        call couple(workspace, compliance, demand, level, settling, strips, result, done)
-        if (settling%settled) return
-        ! As it was.
-        settling = plain
-        call forget_edges(workspace, .false.)
-        workspace%strips%n = strips%n
+        ! More strips will follow it anyway.
+        if (level%strips_per_patch < level%most_strips) return
+        share = 1.0_wp
+        do i = 1, most_parts
+            last = settling
+            call look_for_edges(workspace, settling%patches, moved)
+            call take_edges(workspace, share)
+            call couple(workspace, compliance, demand, level, settling, strips, result, done)
+            if (settling%settled) then
+                if (workspace%graded) return
+                share = min(1.0_wp, 2.0_wp*share)
+            else
+                settling = last
+                call take_back(workspace, strips, settling)
+                share = first_part*share
+            end if
+        end do
+    end subroutine let_edges_follow
+
+    !> The workspace as a solution that was handed over has left it.
+    pure subroutine take_back(workspace, strips, settling)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(contact_strips_t), intent(in) :: strips
+        type(settling_t), intent(inout) :: settling
+
+        integer :: n
+
+        n = strips%n
+        call know_edges(workspace, settling%patches, strips%y_right(:n))
+        workspace%strips%n = n
         workspace%strips%penetration = settling%penetration
-        workspace%strips%p0(:strips%n) = strips%p0(:strips%n)
-        workspace%strips%half_length(:strips%n) = strips%half_length(:strips%n)
+        workspace%strips%p0(:n) = strips%p0(:n)
+        workspace%strips%half_length(:n) = strips%half_length(:n)
         call position_edges(workspace, settling%patches)
         call remember(workspace, settling%patches)
         workspace%carried%known = .false.
         workspace%newton%kept = .false.
-    end subroutine let_edges_follow
+    end subroutine take_back
 
     !> Everything but patches and penetration as at the start; share the strips.
     pure subroutine begin(level, settling)
