@@ -39,7 +39,7 @@ module faststrip_normal_strip_converge
 
     ! Tuned [strip widths]: edges that belong elsewhere by less stay. Origin: the penetration
     ! changes by less than 1e-6.
-    real(wp), parameter :: edge_tolerance = 2.0e-3_wp
+    real(wp), parameter :: edge_tolerance = 5.0e-4_wp
     ! Tuned [steps; evaluations; factors]. Origin: safeguards: some ten, three and two do.
     integer, parameter :: max_steps = 60, max_evaluations = 8, max_factorings = 25
     ! Tuned [1]: Error of a solution by linearised coefficients over the square of what has
@@ -49,6 +49,9 @@ module faststrip_normal_strip_converge
     real(wp), parameter :: second_order_apart = 1.0_wp
     ! Tuned [1]: the steps' tolerance over that asked for. Origin: chosen: steps cost little.
     real(wp), parameter :: finest = 0.3_wp
+    ! Tuned [1]: what is left where edges are looked at, over the change that coefficients allow.
+    ! Origin: chosen: edges change by less than their tolerance from there.
+    real(wp), parameter :: near = 0.2_wp
     ! Tuned [1]: the steps' tolerance over the square of what has changed, where that is more.
     ! Origin: chosen for the time: coefficients are evaluated anew then.
     real(wp), parameter :: worth = 0.3_wp
@@ -201,7 +204,7 @@ contains
                 again = left <= max(finest*tolerance, worth*change**2)
                 if (.not. follows .or. looked .or. again) cycle
                 ! Near enough for coefficients to serve from here: do edges belong elsewhere?
-                if (left > 0.5_wp*sqrt(tolerance/second_order)) cycle
+                if (left > near*sqrt(tolerance/second_order)) cycle
                 looked = .true.
                 call look_for_edges(workspace, patches, moved)
                 again = moved > edge_tolerance
