@@ -39,7 +39,7 @@ module faststrip_normal_strip_converge
 
     ! Tuned [strip widths]: edges that belong elsewhere by less stay. Origin: the penetration
     ! changes by less than 1e-6.
-    real(wp), parameter :: edge_tolerance = 5.0e-4_wp
+    real(wp), parameter :: edge_tolerance = 2.0e-3_wp
     ! Tuned [steps; evaluations; factors]. Origin: safeguards: some ten, three and two do.
     integer, parameter :: max_steps = 60, max_evaluations = 8, max_factorings = 25
     ! Tuned [1]: Error of a solution by linearised coefficients over the square of what has
@@ -83,6 +83,22 @@ module faststrip_normal_strip_converge
     ! Tuned [steps]: from here on they may whatever the step. Origin: as above.
     integer, parameter :: sure_step = 10
 
+    !> Where Newton's method stands.
+    type :: course_t
+        logical :: held = .false.      ! do the ends stay where they are?
+        logical :: follows = .false.   ! do edges follow the gap?
+        integer :: m = 0               ! equations
+        integer :: evaluations = 0, factored = 0, backs = 0 ! so far; steps taken back in a row
+        logical :: again = .false.     ! are coefficients to be evaluated anew?
+        logical :: looked = .false.    ! were edges looked at near the solution?
+        real(wp) :: moved = 0.0_wp     ! edges that belong elsewhere, strip widths
+        logical :: fresh = .false., was_fresh = .false. ! are factors those of this step, the last?
+        real(wp) :: size_now = 0.0_wp, size_before = beyond_all ! largest component of the steps
+        real(wp) :: norm_before = beyond_all ! of residuals
+        real(wp) :: scale = 1.0_wp     ! part of a step that is taken
+        real(wp) :: p_scale = 1.0_wp   ! unit of the pressures' steps, MPa
+    end type course_t
+
 contains
 
     !> Solve for strips and ends together, or for strips between ends that are held.
@@ -97,121 +113,179 @@ contains
         integer, intent(out) :: outcome              !! how it ended
 
         type(end_t) :: ends(2*max_patches)
-        real(wp) :: size_now, size_before, norm_before, growth, left, change, &
-                    error, moved, p_scale, scale
-        integer :: m, n_ends, trial, evaluations, factored, backs
-        logical :: singular, fresh, was_fresh, again, follows, looked
+        type(course_t) :: course
+        integer :: n_ends, trial
+        logical :: possible, goes_back
 
-        associate (n => workspace%strips%n, strips => workspace%strips, newton => workspace%newton)
-            call list_ends(workspace, patches, ends, n_ends)
-            if (held) ends(:n_ends)%fixed = .true.
-            m = 2*n + 1 + n_ends
-            call check_kept(newton, demand, patches, ends(:n_ends))
-            strips%leaves(:n) = .false.
+        call list_ends(workspace, patches, ends, n_ends)
+        if (held) ends(:n_ends)%fixed = .true.
+        call check_kept(workspace%newton, demand, patches, ends(:n_ends))
+        workspace%strips%leaves(:workspace%strips%n) = .false.
+        course%held = held
+        course%follows = workspace%graded .and. .not. held
+        course%m = 2*workspace%strips%n + 1 + n_ends
+        course%again = .not. carries(workspace%carried, patches)
+        do trial = 1, max_steps
             outcome = not_converged
-            evaluations = 0
-            factored = 0
-            was_fresh = .false.
-            norm_before = beyond_all
-            backs = 0
-            size_before = huge(1.0_wp)
-            follows = workspace%graded .and. .not. held
-            moved = 0.0_wp
-            looked = .false.
-            again = .not. carries(workspace%carried, patches)
-            do trial = 1, max_steps
-                if (.not. again) then
-                    change = carried_change(workspace%carried, strips)
-                    again = change > merge(trusted_held, trusted, held)
-                end if
-                if (again) then
-                    if (evaluations == max_evaluations .and. .not. held) return
-                    evaluations = evaluations + 1
-                    if (follows .and. trial > 1) then
-                        if (moved <= edge_tolerance) call look_for_edges(workspace, patches, moved)
-                        call renew_edges(workspace, patches)
-                        moved = 0.0_wp
-                    end if
-                    call carry(workspace%carried, strips, patches)
-                    call count_evaluation(cost, n)
-                    size_before = huge(1.0_wp)
-                    again = .false.
-                end if
-                p_scale = maxval(strips%p0(:n))
-                fresh = .not. newton%kept
-                if (fresh) then
-                    if (factored == max_factorings) return
-                    factored = factored + 1
-                    call coupled_factors(workspace, compliance, demand, patches, ends(:n_ends), &
-                                         p_scale, singular)
-                    if (singular) return
-                    newton%kept = .true.
-                else
-                    call coupled_residual(workspace, compliance, demand, ends(:n_ends), newton%step)
-                end if
-                call count_step(cost, m, fresh)
-                if (held) then
-                    growth = norm2(newton%step(:m))
-                    if (growth > most_growth*norm_before .and. backs < max_backs) then
-                        ! The step led too far: a part of it from where it began.
-                        backs = backs + 1
-                        call take_part(newton, strips, part**backs)
-                        newton%kept = .false.
-                        size_before = huge(1.0_wp)
-                        cycle
-                    end if
-                    backs = 0
-                    norm_before = growth
-                end if
-                call lu_solve(m, newton%jacobian, newton%pivot, newton%step)
-                size_now = maxval(abs(newton%step(:m)))
-                if (.not. size_now < huge(1.0_wp)) return
-                if (.not. fresh .and. (size_now > slow*size_before .or. size_now > far)) then
-                    newton%kept = .false.
-                    ! What does not shrink any more is rounding.
-                    if (size_now > tolerance) cycle
-                end if
-                ! Steps that do not shrink with new factors either go back and forth.
-                scale = merge(damping, 1.0_wp, fresh .and. was_fresh &
-                                               .and. size_now > slow*size_before)
-                was_fresh = fresh
-                call take_step(workspace, ends(:n_ends), p_scale, held, size_now, trial, patches, &
-                               scale, outcome)
-                if (outcome /= converged) return
+            call evaluate(workspace, trial, patches, course, cost, possible)
+            if (.not. possible) return
+            call linearise(workspace, compliance, demand, patches, ends(:n_ends), course, cost, &
+                           possible)
+            if (.not. possible) return
+            if (held) then
+                call go_back(workspace, course, goes_back)
+                if (goes_back) cycle
+            end if
+            call find_step(workspace, course, possible)
+            if (.not. possible) return
+            ! What does not shrink any more is rounding.
+            if (.not. workspace%newton%kept .and. course%size_now > tolerance) cycle
+            call take_step(workspace, ends(:n_ends), trial, course, patches, outcome)
+            if (outcome /= converged) return
+            if (course%scale < least_scale .and. .not. held) then
                 outcome = not_converged
-                if (scale < least_scale .and. .not. held) return
-                if (scale < 1.0_wp) then
-                    newton%kept = .false.
-                    size_before = huge(1.0_wp)
-                    cycle
-                end if
-                ! What is left is about the next step.
-                left = size_now*slow/(1.0_wp - slow)
-                if (size_before < huge(1.0_wp)) &
-                    left = size_now*min(size_now/size_before, slow)/(1.0_wp - slow)
-                change = carried_change(workspace%carried, strips)
-                error = merge(second_order, second_order_apart, patches%n == 1)*change**2
-                if (left <= finest*tolerance .and. error <= tolerance) then
-                    if (follows .and. .not. looked) call look_for_edges(workspace, patches, moved)
-                    if (moved <= edge_tolerance) then
-                        outcome = converged
-                        exit
-                    end if
-                    again = .true.
-                    cycle
-                end if
-                size_before = size_now
-                again = left <= max(finest*tolerance, worth*change**2)
-                if (.not. follows .or. looked .or. again) cycle
-                ! Near enough for coefficients to serve from here: do edges belong elsewhere?
-                if (left > near*sqrt(tolerance/second_order)) cycle
-                looked = .true.
-                call look_for_edges(workspace, patches, moved)
-                again = moved > edge_tolerance
-            end do
-        end associate
+                return
+            end if
+            call judge(workspace, tolerance, patches, course, outcome)
+            if (outcome == converged) exit
+        end do
         if (outcome == converged) call meet_load(workspace, demand)
     end subroutine converge
+
+    !> Evaluate all coefficients anew, where they are not to be trusted, for edges that belong where
+    !> the patches are.
+    pure subroutine evaluate(workspace, trial, patches, course, cost, possible)
+        type(strip_workspace_t), intent(inout) :: workspace
+        integer, intent(in) :: trial ! number of the step
+        type(patches_t), intent(inout) :: patches
+        type(course_t), intent(inout) :: course
+        type(cost_t), intent(inout) :: cost
+        logical, intent(out) :: possible ! false: too often
+
+        possible = .true.
+        if (.not. course%again) course%again = carried_change(workspace%carried, workspace%strips) &
+                                               > merge(trusted_held, trusted, course%held)
+        if (.not. course%again) return
+        possible = course%evaluations < max_evaluations .or. course%held
+        if (.not. possible) return
+        course%evaluations = course%evaluations + 1
+        if (course%follows .and. trial > 1) then
+            if (course%moved <= edge_tolerance) &
+                call look_for_edges(workspace, patches, course%moved)
+            call renew_edges(workspace, patches)
+            course%moved = 0.0_wp
+        end if
+        call carry(workspace%carried, workspace%strips, patches)
+        call count_evaluation(cost, workspace%strips%n)
+        course%size_before = beyond_all
+        course%again = .false.
+    end subroutine evaluate
+
+    !> Residuals, into the step, and factors of a Jacobian: the kept ones, or new ones.
+    pure subroutine linearise(workspace, compliance, demand, patches, ends, course, cost, possible)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(demand_t), intent(in) :: demand
+        type(patches_t), intent(in) :: patches
+        type(end_t), intent(in) :: ends(:)
+        type(course_t), intent(inout) :: course
+        type(cost_t), intent(inout) :: cost
+        logical, intent(out) :: possible ! false: factored too often, or singular
+
+        logical :: singular
+
+        possible = .true.
+        course%p_scale = maxval(workspace%strips%p0(:workspace%strips%n))
+        course%was_fresh = course%fresh
+        course%fresh = .not. workspace%newton%kept
+        if (course%fresh) then
+            possible = course%factored < max_factorings
+            if (.not. possible) return
+            course%factored = course%factored + 1
+            call coupled_factors(workspace, compliance, demand, patches, ends, course%p_scale, &
+                                 singular)
+            possible = .not. singular
+            workspace%newton%kept = possible
+        else
+            call coupled_residual(workspace, compliance, demand, ends, workspace%newton%step)
+        end if
+        call count_step(cost, course%m, course%fresh)
+    end subroutine linearise
+
+    !> Where the residuals have grown the last step led too far: a part of it from where it began.
+    pure subroutine go_back(workspace, course, goes_back)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(course_t), intent(inout) :: course
+        logical, intent(out) :: goes_back
+
+        real(wp) :: norm
+
+        norm = norm2(workspace%newton%step(:course%m))
+        goes_back = norm > most_growth*course%norm_before .and. course%backs < max_backs
+        if (goes_back) then
+            course%backs = course%backs + 1
+            call take_part(workspace%newton, workspace%strips, part**course%backs)
+            workspace%newton%kept = .false.
+            course%size_before = beyond_all
+        else
+            course%backs = 0
+            course%norm_before = norm
+        end if
+    end subroutine go_back
+
+    !> The step from the residuals. The factors are kept no longer if they are too old for it.
+    pure subroutine find_step(workspace, course, possible)
+        type(strip_workspace_t), intent(inout) :: workspace
+        type(course_t), intent(inout) :: course
+        logical, intent(out) :: possible ! is it finite?
+
+        associate (newton => workspace%newton)
+            call lu_solve(course%m, newton%jacobian, newton%pivot, newton%step)
+            course%size_now = maxval(abs(newton%step(:course%m)))
+            possible = course%size_now < huge(1.0_wp)
+            if (.not. possible .or. course%fresh) return
+            if (course%size_now > slow*course%size_before .or. course%size_now > far) &
+                newton%kept = .false.
+        end associate
+    end subroutine find_step
+
+    !> Is what is left below the tolerance? If not: are coefficients to be evaluated anew?
+    pure subroutine judge(workspace, tolerance, patches, course, outcome)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: tolerance
+        type(patches_t), intent(in) :: patches
+        type(course_t), intent(inout) :: course
+        integer, intent(out) :: outcome
+
+        real(wp) :: left, change, error
+
+        outcome = not_converged
+        if (course%scale < 1.0_wp) then
+            workspace%newton%kept = .false.
+            course%size_before = beyond_all
+            return
+        end if
+        ! What is left is about the next step.
+        left = course%size_now*min(course%size_now/course%size_before, slow)/(1.0_wp - slow)
+        if (.not. course%size_before < beyond_all) left = course%size_now*slow/(1.0_wp - slow)
+        course%size_before = course%size_now
+        change = carried_change(workspace%carried, workspace%strips)
+        error = merge(second_order, second_order_apart, patches%n == 1)*change**2
+        if (left <= finest*tolerance .and. error <= tolerance) then
+            if (course%follows .and. .not. course%looked) &
+                call look_for_edges(workspace, patches, course%moved)
+            course%again = course%moved > edge_tolerance
+            if (.not. course%again) outcome = converged
+            return
+        end if
+        course%again = error > tolerance .and. left <= max(finest*tolerance, worth*change**2)
+        if (.not. course%follows .or. course%looked .or. course%again) return
+        ! Near enough for coefficients to serve from here: do edges belong elsewhere?
+        if (left > near*sqrt(tolerance/second_order)) return
+        course%looked = .true.
+        call look_for_edges(workspace, patches, course%moved)
+        course%again = course%moved > edge_tolerance
+    end subroutine judge
 
     !> The load to the last digit.
     pure subroutine meet_load(workspace, demand)
@@ -226,54 +300,67 @@ contains
     end subroutine meet_load
 
     !> Move strips and ends by the step, or by a part of it where it is large.
-    pure subroutine take_step(workspace, ends, p_scale, held, largest, trial, patches, scale, &
-                              outcome)
+    pure subroutine take_step(workspace, ends, trial, course, patches, outcome)
         type(strip_workspace_t), intent(inout) :: workspace
         type(end_t), intent(in) :: ends(:)
-        real(wp), intent(in) :: p_scale  ! unit of the pressures' steps, MPa
-        logical, intent(in) :: held
-        real(wp), intent(in) :: largest  ! component of the step
         integer, intent(in) :: trial     ! number of the step
+        type(course_t), intent(inout) :: course
         type(patches_t), intent(inout) :: patches
-        real(wp), intent(inout) :: scale ! part of the step, less where it is large
         integer, intent(out) :: outcome  ! `converged`: the patches are in order, no strip leaves
 
-        real(wp) :: width, move
-        integer :: n, m, e
+        integer :: n
 
         n = workspace%strips%n
-        m = 2*n + 1 + size(ends)
         outcome = not_converged
-        associate (step => workspace%newton%step, strips => workspace%strips)
-            scale = min(scale, limit_of(step(n + 1:2*n), max_log_length_step), &
-                        limit_of(step(2*n + 1:2*n + 1), max_penetration_step))
-            do e = 1, size(ends)
-                associate (patch => patches%at(ends(e)%patch))
-                    width = end_width(workspace, ends(e)%strip, ends(e)%stride)
-                    move = abs(step(2*n + 1 + e))*width/(patch%y_to - patch%y_from)
-                    scale = scale*min(1.0_wp, max_end_step/max(max_end_step, scale*move))
-                end associate
-            end do
-            if (.not. held) scale = min(scale, &
-                                        most_taken/max(most_taken, maxval(-p_scale*step(:n) &
-                                                                          /strips%p0(:n))))
-            if (held) call keep_step(strips, scale, p_scale, workspace%newton)
-            strips%p0(:n) = strips%p0(:n) + scale*p_scale*step(:n)
+        call limit_step(workspace, ends, patches, course)
+        associate (step => workspace%newton%step, strips => workspace%strips, scale => course%scale)
+            if (course%held) call keep_step(strips, scale, course%p_scale, workspace%newton)
+            strips%p0(:n) = strips%p0(:n) + scale*course%p_scale*step(:n)
             strips%half_length(:n) = strips%half_length(:n)*exp(scale*step(n + 1:2*n))
             strips%penetration = strips%penetration*(1.0_wp + scale*step(2*n + 1))
-            if (.not. held) then
-                call shift_ends(workspace, ends, scale, step(2*n + 2:m), patches)
+            if (.not. course%held) then
+                call shift_ends(workspace, ends, scale, step(2*n + 2:course%m), patches)
                 if (.not. in_order(workspace, patches)) return
                 call position_edges(workspace, patches)
             end if
             call mark_leaving_strips(strips%y_left(:n), strips%y_right(:n), strips%inv2r(:n), &
                                      strips%p0(:n), strips%half_length(:n), strips%leaves(:n))
             ! Far from the solution only ends are sure to leave.
-            if (held .and. largest > splitting_step .and. trial < sure_step) &
+            if (course%held .and. course%size_now > splitting_step .and. trial < sure_step) &
                 call keep_inner_strips(strips%y_left(:n), strips%y_right(:n), strips%leaves(:n))
             outcome = merge(strips_leave, converged, any(strips%leaves(:n)))
         end associate
     end subroutine take_step
+
+    !> The part of a step that is taken.
+    pure subroutine limit_step(workspace, ends, patches, course)
+        type(strip_workspace_t), intent(in) :: workspace
+        type(end_t), intent(in) :: ends(:)
+        type(patches_t), intent(in) :: patches
+        type(course_t), intent(inout) :: course
+
+        real(wp) :: move
+        integer :: n, e
+
+        n = workspace%strips%n
+        associate (step => workspace%newton%step, scale => course%scale)
+            ! Steps that do not shrink with new factors either go back and forth.
+            scale = merge(damping, 1.0_wp, course%fresh .and. course%was_fresh &
+                                           .and. course%size_now > slow*course%size_before)
+            scale = min(scale, limit_of(step(n + 1:2*n), max_log_length_step), &
+                        limit_of(step(2*n + 1:2*n + 1), max_penetration_step))
+            do e = 1, size(ends)
+                associate (patch => patches%at(ends(e)%patch))
+                    move = abs(step(2*n + 1 + e))/(patch%y_to - patch%y_from) &
+                           *end_width(workspace, ends(e)%strip, ends(e)%stride)
+                    scale = scale*min(1.0_wp, max_end_step/max(max_end_step, scale*move))
+                end associate
+            end do
+            if (course%held) return
+            move = maxval(-course%p_scale*step(:n)/workspace%strips%p0(:n))
+            scale = min(scale, most_taken/max(most_taken, move))
+        end associate
+    end subroutine limit_step
 
     !> Keep where a step begins, and the step.
     pure subroutine keep_step(strips, scale, p_scale, newton)

@@ -94,7 +94,7 @@ contains
         type(plan_t) :: plan
         type(settling_t) :: settling
         integer :: way, first_way, level
-        logical :: in_doubt, found
+        logical :: found
 
         call forget_lattice_errors(workspace%lattice)
         plan = level_plan(options%strips_per_patch)
@@ -102,7 +102,7 @@ contains
         settling%settled = .false.
         first_way = merge(from_last, from_level, options%warm_start .and. workspace%old%n > 0)
         do way = first_way, few_first
-            call begin(workspace, compliance, demand, way, settling, in_doubt, found)
+            call begin(workspace, compliance, demand, way, settling, found)
             if (.not. found) cycle
             if (way == from_last) then
                 level = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
@@ -113,8 +113,8 @@ contains
                 plan = with_few(plan)
             end if
             ! A row starts where the level before has failed.
-            call climb(workspace, compliance, demand, options, plan, way, in_doubt, level, &
-                       settling, strips, result, n_settled)
+            call climb(workspace, compliance, demand, options, plan, way, level, settling, &
+                       strips, result, n_settled)
             if (settling%settled .or. (plan%is_auto .and. n_settled > 0)) exit
         end do
         all_settled = settling%settled
@@ -134,18 +134,17 @@ contains
     end subroutine solve_by_levels
 
     !> What a way starts from; but for the last solution, no bit of one before is left.
-    subroutine begin(workspace, compliance, demand, way, settling, in_doubt, found)
+    subroutine begin(workspace, compliance, demand, way, settling, found)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
         integer, intent(in) :: way
         type(settling_t), intent(inout) :: settling
-        logical, intent(out) :: in_doubt ! do patches split and join?
-        logical, intent(out) :: found    ! are there patches?
+        logical, intent(out) :: found ! are there patches?
 
         found = .true.
         if (way == from_last) then
-            in_doubt = any(workspace%old%at(:workspace%old%n)%meets_next)
+            settling%in_doubt = any(workspace%old%at(:workspace%old%n)%meets_next)
             call resume_patches(workspace, demand, settling%patches, settling%penetration)
             return
         end if
@@ -155,21 +154,20 @@ contains
         workspace%carried%known = .false.
         workspace%newton%kept = .false.
         call forget_edges(workspace, .true.)
-        in_doubt = way == from_row .or. way == row_in_turn
-        if (in_doubt) call find_patches(workspace, compliance, demand, settling%patches, &
+        settling%in_doubt = way == from_row .or. way == row_in_turn
+        if (settling%in_doubt) call find_patches(workspace, compliance, demand, settling%patches, &
                                         settling%penetration, found)
     end subroutine begin
 
     !> Solve with the numbers of strips of a plan, each from the one before.
-    subroutine climb(workspace, compliance, demand, options, plan, way, in_doubt, level, settling, &
-                     strips, result, n_settled)
+    subroutine climb(workspace, compliance, demand, options, plan, way, level, settling, strips, &
+                     result, n_settled)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
         type(strip_options_t), intent(in) :: options
         type(plan_t), intent(in) :: plan
         integer, intent(in) :: way        ! what it starts from
-        logical, intent(in) :: in_doubt   ! do patches split and join?
         integer, intent(inout) :: level   ! of the plan: the first, then the last
         type(settling_t), intent(inout) :: settling ! with the patches to start from
         type(contact_strips_t), intent(inout) :: strips
@@ -183,7 +181,7 @@ contains
         first = level
         do level = first, plan%n
             asked = level_t(plan%strips(level), maxval(plan%strips(:plan%n)), options%tolerance, &
-                            way /= from_level .or. level > first, in_doubt)
+                            way /= from_level .or. level > first)
             coarser = result
             settling%settled = .false.
             if (level > first .or. way < row_in_turn) &

@@ -64,7 +64,6 @@ module faststrip_normal_strip_settle
         integer :: most_strips = usual_strips      !! of all levels, for the limit of the work
         real(wp) :: tolerance = usual_strip_tolerance !! relative size of the last step
         logical :: near = .false.         !! do the strips start near a solution?
-        logical :: in_doubt = .false.     !! do patches split and join, so that a row found them?
     end type level_t
 
     !> Where the settling of a level stands, and what it leaves.
@@ -72,6 +71,7 @@ module faststrip_normal_strip_settle
         type(patches_t) :: patches        !! those the next pass starts with
         real(wp) :: penetration = 0.0_wp  !! last found, above the lowest height, mm
         integer :: splits = 0             !! patches split by strips that left
+        logical :: in_doubt = .false.     !! do patches split and join, so that a row found them?
         logical :: settled = .false.      !! is there a pass that stands?
     end type settling_t
 
@@ -352,7 +352,7 @@ contains
         logical, intent(out) :: changed
 
         call close_overlaps(workspace, compliance, settling%penetration, &
-                            .not. level%in_doubt .and. settling%splits < max_splits, &
+                            .not. settling%in_doubt .and. settling%splits < max_splits, &
                             settling%patches, changed)
         if (changed) call share_strips(level%strips_per_patch, settling%patches)
     end subroutine join_overlaps
