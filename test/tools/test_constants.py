@@ -48,14 +48,14 @@ class OfTheProject(unittest.TestCase):
                 (copy / room).parent.mkdir(parents=True, exist_ok=True)
                 copied = shutil.copy if room.endswith(".f90") else shutil.copytree
                 copied(ROOT / room, copy / room)
-            path = copy / "src/faststrip/normal/strip/newton.f90"
+            path = copy / "src/faststrip/normal/strip/figures.f90"
             text = path.read_text(encoding="utf-8")
-            path.write_text(text.replace("p_scale = 1.0_wp", "p_scale = 1.7_wp"), encoding="utf-8")
+            path.write_text(text.replace("correction = 1.0_wp", "correction = 1.7_wp"), encoding="utf-8")
             done = subprocess.run([sys.executable, ROOT / "tools/check/constants.py", "--bare",
                                    "--root", copy], capture_output=True, encoding="utf-8",
                                   check=False)
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"strip/newton\.f90:\d+: bare number 1\.7_wp")
+        self.assertRegex(done.stderr, r"strip/figures\.f90:\d+: bare number 1\.7_wp")
 
 
 class Rule(unittest.TestCase):

@@ -21,7 +21,6 @@ WRITTEN_OUT = {"far_sums", "near_sums"}
 INTERFACE = re.compile(r"^ *interface\b.*?^ *end interface", re.MULTILINE | re.DOTALL)
 PROCEDURE = re.compile(r"^ *(?:(?:pure|elemental|recursive|impure) +)*(?:[a-z]+(?:\([^)]*\))? +)?"
                        r"(subroutine|function) +(\w+) *\(([^)]*)\)", re.MULTILINE)
-STATES = re.compile(r"integer, parameter :: (state_\w+) = \d+")
 
 
 def procedures(text):
@@ -81,28 +80,3 @@ end module m
             for name, _, lines in procedures(text):
                 if name not in WRITTEN_OUT:
                     self.assertLessEqual(lines, MOST_PROCEDURE, f"{path.name}: {name}")
-
-
-class States(unittest.TestCase):
-    """The states in the code are those of the document, and each has its procedure."""
-
-    def setUp(self):
-        self.text = (ROOM / "strip/settle.f90").read_text(encoding="utf-8")
-        self.states = [name.removeprefix("state_") for name in STATES.findall(self.text)]
-
-    def test_documented(self):
-        document = (ROOT / "docs/method.md").read_text(encoding="utf-8")
-        chapter = document.split("\n## The states of the strip solver\n")[1].split("\n## ")[0]
-        self.assertGreater(len(self.states), 4)
-        for state in self.states:
-            self.assertRegex(chapter, rf"(?m)^\| `{state}` \|", state)
-
-    def test_handled(self):
-        last = {"done", "give_up"}
-        handled = set(re.findall(r"case \(state_(\w+)\)", self.text))
-        self.assertEqual(handled, set(self.states) - last)
-
-    def test_reached(self):
-        for state in self.states:
-            self.assertRegex(self.text, rf"settling%state = (?:state_{state}\b|"
-                             rf"merge\((?:state_{state}\b|state_\w+, state_{state}\b))", state)

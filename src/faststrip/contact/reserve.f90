@@ -10,7 +10,7 @@ module faststrip_contact_reserve
     use faststrip_tangential_types, only: reserve_field
     use faststrip_contact_method, only: workspace_t, normal_method_t, tangential_method_t
     use faststrip_contact_method_capacity, only: strip_capacity, reserve_for_strips, &
-                                                 try_memory, per_point, per_strip
+                                                 try_memory, per_point, per_strip, per_element
     use faststrip_contact_method_core, only: enter_core_methods
     use faststrip_contact_methods, only: contact_methods_t, normal_auto, normal_strip
     use faststrip_contact_parts, only: find_normal_method, check_methods, refuse_elements
@@ -88,7 +88,7 @@ contains
         elements = max(int(strip_capacity(methods), int64)*points, &
                        int(methods%fastsim_nx, int64)*methods%fastsim_ny*max_patches)
         if (elements < huge(points)) then
-            call try_memory(per_point*elements, 'field', status)
+            call try_memory(per_element*elements, 'field', status)
         else
             call set_status(status, st_workspace_too_small, 'not enough memory for a field')
         end if

@@ -14,16 +14,16 @@ module faststrip_contact_method_capacity
     private
 
     public :: on_gap_t, on_strips_t
-    public :: per_point, per_strip
+    public :: per_point, per_strip, per_element
     public :: strip_capacity, check_capacity, ellipse_strips, reserve_for_strips, try_memory
 
     ! Tuned [strips]: capacity for those of further patches. Origin: capacity.
     integer, parameter :: spare_strips = 60
-    !> Tuned [numbers]: memory of a workspace, tried before it is taken: of a point or an element, a
-    !> strip. Origin: counted from the components of the workspaces, with a margin.
-    integer(int64), parameter :: per_point = 20, per_strip = 110
+    !> Tuned [numbers]: memory of a workspace, tried before it is taken: of a point, a strip, an
+    !> element. Origin: counted from the components of the workspaces, with a margin.
+    integer(int64), parameter :: per_point = 36, per_strip = 200, per_element = 20
     ! Tuned [numbers]: the same of a pair of strips and of the lattice. Origin: counted.
-    integer(int64), parameter :: per_pair = 8, at_least = 400000
+    integer(int64), parameter :: per_pair = 12, at_least = 400000
 
     !> A normal method that needs the gap alone.
     type, abstract, extends(normal_method_t) :: on_gap_t

@@ -427,6 +427,8 @@ contains
         real(wp), intent(in) :: y(:)             !! lateral positions, increasing, mm
         real(wp), intent(inout) :: slope(:)      !! h' at each
 
+        ! Given: of the slope of a cubic between two heights.
+        real(wp), parameter :: cubic = 6.0_wp
         integer :: i, k
         real(wp) :: dy, t, u
 
@@ -449,7 +451,7 @@ contains
                 u = (curve%y(i + 1) - y(k))/dy
                 slope(k) = (curve%slope_from(i)*(u*(u - 2.0_wp*t)) &
                             + curve%slope_to(i)*(t*(t - 2.0_wp*u))) &
-                           + 6.0_wp*(t*u)*((curve%h(i + 1) - curve%h(i))/dy)
+                           + cubic*(t*u)*((curve%h(i + 1) - curve%h(i))/dy)
             end if
         end do
     end subroutine gap_slopes

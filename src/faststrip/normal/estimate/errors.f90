@@ -81,8 +81,8 @@ module faststrip_normal_estimate_errors
     real(wp), parameter :: area_section = 9.4_wp, area_edge = 1.85_wp
     ! Tuned [1]: The maximum pressure's factors. Origin: calibrated.
     real(wp), parameter :: edge_factor = 0.3_wp, wave_factor = 0.25_wp, load_factor = 0.38_wp
-    ! Tuned [1]: The same, of unresolved heights and of A. Origin: calibrated; with 3 five strips of a
-    ! test where A varies much are not bounded.
+    ! Tuned [1]: The same, of unresolved heights and of A. Origin: calibrated; with 3 five strips of
+    ! a test where A varies much are not bounded.
     real(wp), parameter :: unresolved_factor = 1.7_wp, longitudinal_factor = 4.5_wp
     ! Tuned [1]: Least estimate of area and of maximum pressure, times n squared. Origin:
     ! calibrated.

@@ -61,7 +61,7 @@ contains
             node(:3) = [left(k), 0.5_wp*(left(k) + right(k)), right(k)]
             if (has_left .or. has_right) then
                 ! At an end of the patch the neighbour's other edge serves instead.
-                n = 5
+                n = most_nodes
                 if (has_left) node(4) = 0.5_wp*(left(k - 1) + right(k - 1))
                 if (has_right) node(5) = 0.5_wp*(left(k + 1) + right(k + 1))
                 if (.not. has_left) node(4) = right(k + 1)

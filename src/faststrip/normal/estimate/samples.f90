@@ -17,6 +17,7 @@ module faststrip_normal_estimate_samples
     integer, parameter :: block = 64
     !> Most points sampled together: both edges of each strip of a block, and two places beside each
     !> end of a patch.
+    !> Given: of one strip at most.
     integer, parameter :: most_samples = 6*block
 
 contains

@@ -40,7 +40,8 @@ module faststrip_normal_strip_converge
     ! Tuned [strip widths]: edges that belong elsewhere by less stay. Origin: the penetration
     ! changes by less than 1e-6.
     real(wp), parameter :: edge_tolerance = 2.0e-3_wp
-    ! Tuned [steps; evaluations; factors]. Origin: safeguards: some ten, three and two do.
+    ! Tuned [steps; evaluations; factors]: most of each. Origin: safeguards: some ten, three and two
+    ! do.
     integer, parameter :: max_steps = 60, max_evaluations = 8, max_factorings = 25
     ! Tuned [1]: Error of a solution by linearised coefficients over the square of what has
     ! changed. Origin: measured: .01 in the median, .02 to .1 in 95 %.
@@ -75,7 +76,7 @@ module faststrip_normal_strip_converge
     ! Tuned [1]: with ends held, growth of the residual from which a step is taken back, and the
     ! part of it that is tried; so often one after the other. Origin: chosen; steps led too far.
     real(wp), parameter :: most_growth = 1.5_wp, part = 0.4_wp
-    ! Tuned [steps]. Origin: chosen.
+    ! Tuned [steps]: most taken back one after the other. Origin: chosen.
     integer, parameter :: max_backs = 4
     ! Tuned [1]: with ends held, a step below which strips may leave inside a patch. Origin: patches
     ! split too soon.

@@ -42,7 +42,7 @@ contains
         integer, intent(in) :: n                !! strips, >= 1
         real(wp), intent(inout) :: edge(:)      !! (n)
 
-        real(wp), dimension(-most_places:most_places) :: place, slope
+        real(wp), dimension(-most_places:most_places) :: place, y, slope
         real(wp), dimension(0:most_places) :: to_left, to_right ! strips from the middle, no unit
         real(wp) :: middle, half, turn, at
         integer :: m, d, j, k
@@ -56,7 +56,8 @@ contains
         end do
         middle = 0.5_wp*(y_from + y_to)
         half = 0.5_wp*(y_to - y_from)
-        call gap_slopes(curve, middle + half*place(-m:m), slope(-m:m))
+        y(-m:m) = middle + half*place(-m:m)
+        call gap_slopes(curve, y(-m:m), slope(-m:m))
         turn = 0.0_wp
         do j = 1, m
             turn = turn + (abs(slope(j) - slope(j - 1)) + abs(slope(1 - j) - slope(-j)))

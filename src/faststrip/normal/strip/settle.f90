@@ -43,7 +43,8 @@ module faststrip_normal_strip_settle
     real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 100.0_wp
     ! Tuned [strip widths]. Origin: errors of the area well below those of 15 strips.
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
-    ! Tuned [strip widths]. Origin: strips and ends converge together from there.
+    ! Tuned [strip widths]: the ends' next move. Origin: strips and ends converge together from
+    ! there.
     real(wp), parameter :: coupling_move = 1.0_wp
     ! Tuned [strip widths]. Origin: ten times end_tolerance.
     real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
@@ -51,9 +52,10 @@ module faststrip_normal_strip_settle
     ! other: what is left then is far below what the ends' moves change.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: far_tolerance = 0.1_wp, near_tolerance = 1.0e-2_wp
-    ! Tuned [1]: of the way of edges to where they belong, where all of it is too far; most parts.
-    ! Origin: chosen; safeguard.
+    ! Tuned [1]: of the way of edges to where they belong, where all of it is too far. Origin:
+    ! chosen.
     real(wp), parameter :: first_part = 0.25_wp
+    ! Tuned [tries]: at letting edges follow the gap. Origin: chosen: all at once, then three parts.
     integer, parameter :: most_parts = 4
     ! Tuned [1]. Origin: safeguard: above rounding.
     real(wp), parameter :: sliver = 1.0e-10_wp ! of the gap's range: too narrow for a patch
