@@ -48,6 +48,7 @@ module faststrip_normal_strip_state
         integer :: n_graded(max_patches) = 0 !! strips of patches whose `edge` is known
         real(wp), allocatable :: edge(:)     !! right edges of strips in half-widths of their patch
         real(wp), allocatable :: new_edge(:) !! those of the patches where they are
+        real(wp), allocatable :: middle(:)   !! of strips before, the same unit
         real(wp) :: old_inv2r = 1.0_wp !! the unit of A in `old_half_length`, 1/mm: one of the
                                        !! strips', so that the unit of length does not matter
     end type strip_workspace_t
@@ -78,10 +79,10 @@ contains
         call reserve_pass_strips(workspace%strips, max_strips)
         if (allocated(workspace%old_p0)) &
             deallocate (workspace%old_eta, workspace%old_p0, workspace%old_half_length, &
-                        workspace%edge, workspace%new_edge)
+                        workspace%edge, workspace%new_edge, workspace%middle)
         allocate (workspace%old_eta(max_strips), workspace%old_p0(max_strips), &
                   workspace%old_half_length(max_strips), workspace%edge(max_strips), &
-                  workspace%new_edge(max_strips), source=0.0_wp)
+                  workspace%new_edge(max_strips), workspace%middle(max_strips), source=0.0_wp)
         workspace%n_graded = 0
         workspace%max_strips = max_strips
     end subroutine reserve_strip_workspace
@@ -272,14 +273,43 @@ contains
     !> are taken over.
     pure subroutine renew_edges(workspace, patches)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips in these patches
-        type(patches_t), intent(inout) :: patches
+        type(patches_t), intent(in) :: patches
 
-        integer :: n
+        real(wp) :: before, eta, ellipse
+        integer :: p, k, first, last
 
-        call remember(workspace, patches)
-        n = workspace%strips%n
-        workspace%edge(:n) = workspace%new_edge(:n)
-        call position_strips(workspace, patches, n)
+        associate (strips => workspace%strips, edge => workspace%edge, middle => workspace%middle, &
+                   new_edge => workspace%new_edge, pressure => workspace%newton%other(:, 1), &
+                   length => workspace%newton%other(:, 2))
+            last = 0
+            do p = 1, patches%n
+                before = -1.0_wp
+                do k = last + 1, last + patches%at(p)%n_strips
+                    middle(k) = 0.5_wp*(before + edge(k))
+                    ellipse = sqrt(1.0_wp - middle(k)**2)
+                    pressure(k) = strips%p0(k)/ellipse
+                    length(k) = strips%half_length(k)*sqrt(strips%inv2r(k))/ellipse
+                    before = edge(k)
+                end do
+                last = last + patches%at(p)%n_strips
+            end do
+            edge(:last) = new_edge(:last)
+            call position_edges(workspace, patches)
+            last = 0
+            do p = 1, patches%n
+                first = last + 1
+                last = last + patches%at(p)%n_strips
+                before = -1.0_wp
+                do k = first, last
+                    eta = 0.5_wp*(before + edge(k))
+                    ellipse = sqrt(1.0_wp - eta**2)
+                    strips%p0(k) = ellipse*carried_on(middle, pressure, first, last, eta)
+                    strips%half_length(k) = ellipse*carried_on(middle, length, first, last, eta) &
+                                            /sqrt(strips%inv2r(k))
+                    before = edge(k)
+                end do
+            end do
+        end associate
     end subroutine renew_edges
 
     !> Keep a solution as the start of the next pass: pressures and lengths over the ellipse
@@ -334,23 +364,34 @@ contains
         integer, intent(in) :: q, i
         real(wp), intent(in) :: eta_old, eta
 
-        integer :: first, last, k
+        integer :: first, last
         real(wp) :: ellipse
 
         first = 1 + sum(workspace%old%at(:q - 1)%n_strips)
         last = first + workspace%old%at(q)%n_strips - 1
-        ! The strip with the one nearest the place in the middle.
-        do k = first, last - 3
-            if (workspace%old_eta(k + 1) + workspace%old_eta(k + 2) >= 2.0_wp*eta_old) exit
-        end do
         ellipse = sqrt(1.0_wp - eta**2)
-        associate (strips => workspace%strips, old_eta => workspace%old_eta(k:k + 2))
-            strips%p0(i) = ellipse*between(old_eta, workspace%old_p0(k:k + 2), eta_old)
-            strips%half_length(i) = ellipse*between(old_eta, workspace%old_half_length(k:k + 2), &
-                                                    eta_old) &
+        associate (strips => workspace%strips, old_eta => workspace%old_eta)
+            strips%p0(i) = ellipse*carried_on(old_eta, workspace%old_p0, first, last, eta_old)
+            strips%half_length(i) = ellipse*carried_on(old_eta, workspace%old_half_length, first, &
+                                                       last, eta_old) &
                                     /sqrt(strips%inv2r(i)/workspace%old_inv2r)
         end associate
     end subroutine start_from_old
+
+    !> Values of the strips of a patch, at some place of it: by the strip with the one nearest the
+    !> place in the middle.
+    pure real(wp) function carried_on(eta, values, first, last, at)
+        real(wp), intent(in) :: eta(:), values(:) ! middles of strips, rising, and values there
+        integer, intent(in) :: first, last        ! strips of the patch
+        real(wp), intent(in) :: at                ! place
+
+        integer :: k
+
+        do k = first, last - 3
+            if (eta(k + 1) + eta(k + 2) >= 2.0_wp*at) exit
+        end do
+        carried_on = between(eta(k:k + 2), values(k:k + 2), at)
+    end function carried_on
 
     !> The parabola through three points, not beyond them by more than they differ.
     pure real(wp) function between(x, y, at)
