@@ -27,7 +27,7 @@ CONSTANTS = (
     ("strip/levels.f90", "few_strips", "7", "the level set, with seven strips"),
     ("strip/levels.f90", "first_level", "15", "reached by way of 15"),
     ("strip/levels.f90", "most_at_once", "20", "More than 20 strips are reached"),
-    ("strip/levels.f90", "level_factor", "3", "three times the strips at most"),
+    ("strip/levels.f90", "level_factor", "2", "twice as many and one at most"),
     ("strip/settle.f90", "loose_end_tolerance", "0.3", "would move by 0.3 strip or less"),
     ("strip/settle.f90", "coupling_move", "1.0", "When they move by less than one strip"),
     ("strip/settle.f90", "max_passes", "40", "40 passes"),

@@ -37,11 +37,11 @@ module faststrip_normal_strip_levels
     ! Tuned [strips]: first of many strips; more than these are reached by way of others. Origin:
     ! chosen for the time of a cold start.
     integer, parameter :: first_level = 15, most_at_once = 20
-    ! Tuned [1]: strips of a level over those of the one before, at most. Origin: chosen for the
-    ! time of a cold start.
-    integer, parameter :: level_factor = 3
+    ! Tuned [1]: strips of a level, less one, over those of the one before, at most. Origin:
+    ! convergence: 41 strips from 15 are too far where A jumps.
+    integer, parameter :: level_factor = 2
     ! Tuned [levels]: Most levels. Origin: safeguard: more than level_factor needs for any number.
-    integer, parameter :: most_levels = 9
+    integer, parameter :: most_levels = 12
     ! Tuned [strips]: Numbers of strips tried. Origin: chosen: each about 1.6 times the last.
     integer, parameter :: auto_levels(5) = [15, 27, 41, 61, strips_auto_most]
     ! Tuned [strips]. Origin: chosen.
@@ -186,6 +186,9 @@ contains
             settling%settled = .false.
             if (level > first .or. way < row_in_turn) &
                 call settle_together(workspace, compliance, demand, asked, settling, strips, result)
+            ! The last may be reached without those between.
+            if (.not. (settling%settled .or. plan%is_auto) .and. level > first &
+                .and. level < plan%n) cycle
             if (.not. settling%settled .and. (level > first .or. way >= row_in_turn)) &
                 call settle_in_turn(workspace, compliance, demand, asked, settling, strips, result)
             if (.not. settling%settled) return
@@ -214,7 +217,7 @@ contains
 
         warm_level = 1
         if (plan%is_auto) return
-        warm_level = max(1, findloc(plan%strips(:plan%n) <= level_factor*strips, .true., dim=1, &
+        warm_level = max(1, findloc(plan%strips(:plan%n) <= level_factor*strips + 1, .true., dim=1, &
                                     back=.true.))
     end function warm_level
 
@@ -261,9 +264,10 @@ contains
         if (strips > most_at_once) then
             plan%n = 1
             plan%strips(1) = first_level
-            do while (plan%strips(plan%n)*level_factor < strips .and. plan%n < most_levels - 2)
+            do while (level_factor*plan%strips(plan%n) + 1 < strips &
+                      .and. plan%n < most_levels - 2)
                 plan%n = plan%n + 1
-                plan%strips(plan%n) = level_factor*plan%strips(plan%n - 1)
+                plan%strips(plan%n) = level_factor*plan%strips(plan%n - 1) + 1
             end do
         end if
         plan%n = plan%n + 1
