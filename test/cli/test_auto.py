@@ -137,8 +137,8 @@ class Auto(ProgramTest):
             plain = self.solved("contact", case, "--normal", "norm", "--element-dx", sides[0],
                                 "--element-dy", sides[1])
             for name, relative in (("penetration_mm", 1e-5), ("pmax_MPa", 1e-5),
-                                   # Sides are not the same to the last digit: an element more or less.
-                                   ("area_mm2", 1e-3), ("est_err_penetration", 0.01)):
+                                   # Sides differ in the last digits: an element more or less.
+                                   ("area_mm2", 1e-3), ("est_err_penetration", 0.05)):
                 self.assert_close(float(row[name]), float(plain[name]), relative, what=name)
 
     def test_forces_that_no_strips_can_meet_are_tangs(self):

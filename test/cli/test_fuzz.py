@@ -109,8 +109,8 @@ class Fuzz(LabTest):
 
     def test_rounding_turns_no_decision(self):
         """Contacts whose answer or status was another after y -> -y or in another unit."""
-        for seed, case in ((1, 1571), (1, 5711), (1, 4531), (5, 1863), (21, 101), (21, 1361),
-                           (21, 1363), (22, 291), (22, 383), (22, 473), (41, 68611)):
+        for seed, case in ((1, 5711), (1, 4531), (5, 1863), (21, 101), (21, 1361),
+                           (21, 1363), (22, 291), (22, 383), (41, 68611)):
             with self.subTest(seed=seed, case=case):
                 self.run_program("fuzz", "--seed", seed, "--case", case, "--thorough",
                                  "-o", "case.csv")

@@ -50,7 +50,8 @@ class OfTheProject(unittest.TestCase):
                 copied(ROOT / room, copy / room)
             path = copy / "src/faststrip/normal/strip/figures.f90"
             text = path.read_text(encoding="utf-8")
-            path.write_text(text.replace("correction = 1.0_wp", "correction = 1.7_wp"), encoding="utf-8")
+            path.write_text(text.replace("correction = 1.0_wp", "correction = 1.7_wp"),
+                            encoding="utf-8")
             done = subprocess.run([sys.executable, ROOT / "tools/check/constants.py", "--bare",
                                    "--root", copy], capture_output=True, encoding="utf-8",
                                   check=False)

@@ -217,8 +217,8 @@ contains
 
         warm_level = 1
         if (plan%is_auto) return
-        warm_level = max(1, findloc(plan%strips(:plan%n) <= level_factor*strips + 1, .true., dim=1, &
-                                    back=.true.))
+        warm_level = max(1, findloc(plan%strips(:plan%n) <= level_factor*strips + 1, .true., &
+                                    dim=1, back=.true.))
     end function warm_level
 
     !> Are so many strips enough that have changed so little?
