@@ -188,7 +188,7 @@ class GapFile(ProgramTest):
         else:
             self.assertEqual({strip["friction_power_N"] for strip in strips}, {""})
         if not hertz:
-            self.assert_close(max(numbers(strips, "p0_MPa")), float(row["pmax_MPa"]), 0.01)
+            self.assert_close(max(numbers(strips, "p0_MPa")), float(row["pmax_MPa"]), 0.03)
 
     def check_fields(self, row, field):
         area = numbers(field, "area_mm2")
