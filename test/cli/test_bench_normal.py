@@ -40,7 +40,7 @@ class Bench(LabTest):
             self.assertEqual((row["status"] in ("ok", "under_resolved"), row["strips"]),
                              (True, "9"), row)
             for name in ("penetration", "pmax", "area"):
-                self.assertLess(abs(float(row["err_" + name])), 2e-4, row)
+                self.assertLess(abs(float(row["err_" + name])), 5e-4, row)
             self.assertGreater(float(row["cold_us"]), 0)
             if row["kind"] == "load":
                 self.assertLessEqual(int(row["iterations"]), 2 * int(row["cold_iterations"]), row)
