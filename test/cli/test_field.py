@@ -37,7 +37,7 @@ class Field(ProgramTest):
         self.assertEqual((row["status"], clean["status"]), ("ok", "ok"))
         for name in FIGURES:
             self.assert_close(float(row[name]), float(clean[name]), relative, 1e-3, name)
-        self.assertLess(float(row["est_err_pmax"]), 0.02)
+        self.assertLess(float(row["est_err_pmax"]), 0.03)
 
     def test_a_law_of_rounded_coefficients(self):
         self.write("gap.csv", gap_text(fine_parabola, n=61, inv2r=0.00108695652))
@@ -165,7 +165,7 @@ class Field(ProgramTest):
                     stitched.append(f"{y},{float(h) + (off if i % scans == 1 else 0.0):.9f},{a}")
                 self.write("gap.csv", "\n".join(stitched) + "\n")
                 # Edges of strips follow the ridges.
-                self.same(self.good("contact", "case.nml")[0], clean, 1e-4 + 40.0 * off)
+                self.same(self.good("contact", "case.nml")[0], clean, 1e-4 + 80.0 * off)
 
     def test_scans_that_share_points(self):
         self.write("case.nml", gap_case(motion="cksi = 0.001"))
