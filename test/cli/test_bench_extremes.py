@@ -115,9 +115,9 @@ class Extremes(LabTest):
         self.assertLess(self.largest(rows, quantity="other_status"), 0.5)
         self.assertNotIn("jump", {row["status"] for row in rows})
         for row in rows:
-            # No figure takes part in more than 200 times the noise; edges follow curvatures.
+            # No figure takes part in more than 120 times the noise; edges follow curvatures.
             if row["quantity"] != "other_status":
-                self.assertLess(row["value"], 200.0 * float(row["x"]) + 1e-14, row)
+                self.assertLess(row["value"], 120.0 * float(row["x"]) + 1e-14, row)
         self.assertGreater(self.largest(rows, quantity="pmax"), 1e-9, "no noise was made")
 
     def test_rounding(self):

@@ -40,7 +40,8 @@ class Bench(LabTest):
             self.assertEqual((row["status"] in ("ok", "under_resolved"), row["strips"]),
                              (True, "9"), row)
             for name in ("penetration", "pmax", "area"):
-                self.assertLess(abs(float(row["err_" + name])), 5e-4, row)
+                # Where a jump of curvature enters the patch edges are left a little off.
+                self.assertLess(abs(float(row["err_" + name])), 3e-4, row)
             self.assertGreater(float(row["cold_us"]), 0)
             if row["kind"] == "load":
                 self.assertLessEqual(int(row["iterations"]), 2 * int(row["cold_iterations"]), row)

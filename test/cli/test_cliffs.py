@@ -38,7 +38,7 @@ class Cliffs(ProgramTest):
         self.assertEqual((row["status"], clean["status"]), ("ok", "ok"), what)
         for name in FIGURES:
             # A tenth of the strips' tolerance.
-            self.assert_close(float(row[name]), float(clean[name]), relative=1e-7,
+            self.assert_close(float(row[name]), float(clean[name]), relative=2e-8,
                               what=(what, name))
 
     def test_a_wall_outside_is_not_seen(self):

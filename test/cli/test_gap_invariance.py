@@ -85,17 +85,19 @@ class GapInvariance(ProgramTest):
                         if name in ("fill", "spike"):
                             self.assertNotEqual(row["status"], "ok", what)
                             self.assertEqual(row["pmax_MPa"], "", what)
-                        # Where patches meet, no penetration of these has the load, and auto
-                        # may take other strips.
-                        if not first["pmax_MPa"] or (method in (*GUESSES, "auto")
+                        # Where patches meet, no penetration of these has the load.
+                        if not first["pmax_MPa"] or (method in GUESSES
                                                      and name in ("waves", "noise")):
                             continue
+                        # In waves and noise auto may take other strips.
+                        waves = method == "auto" and name in ("waves", "noise")
                         self.assert_close(float(row["penetration_mm"]) - lowest[name] - offset,
                                           float(first["penetration_mm"]) - lowest[name],
-                                          relative=1e-5, what=what)
+                                          relative=1e-2 if waves else 1e-5, what=what)
                         for figure in ("pmax_MPa", "area_mm2", "Fx_N"):
+                            relative = 1e-4 if method == "auto" else 1e-5
                             self.assert_close(float(row[figure]), float(first[figure]),
-                                              relative=1e-4 if method == "auto" else 1e-5,
+                                              relative=0.1 if waves else relative,
                                               what=(*what, figure))
 
     def test_units_do_not_count(self):

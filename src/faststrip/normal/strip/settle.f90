@@ -124,6 +124,8 @@ contains
         type(contact_strips_t), intent(inout) :: strips !! of the best pass, if it settled
         type(normal_result_t), intent(inout) :: result  !! of the best pass; costs are added
 
+        type(settling_t) :: best
+        type(patches_t) :: solved
         real(wp) :: tolerance, moved, best_move
         integer :: pass, best_pass, couplings, outcome
         logical :: at_rest, possible, changed, done
@@ -151,6 +153,7 @@ contains
             if (outcome /= converged) exit
             settling%penetration = workspace%strips%penetration
             call remember(workspace, settling%patches)
+            solved = settling%patches
             call move_ends(workspace, pass, settling%patches, moved)
             call join_overlaps(workspace, compliance, level, settling, changed)
             if (changed) then
@@ -162,7 +165,9 @@ contains
                 if (moved < best_move) then
                     best_move = moved
                     best_pass = pass
-                    call keep(workspace, settling, strips, result)
+                    best = settling
+                    best%patches = solved
+                    call keep(workspace, best, strips, result)
                 end if
                 if (at_rest .or. moved < end_tolerance) exit
             end if
@@ -180,10 +185,16 @@ contains
             call couple(workspace, compliance, demand, level, settling, strips, result, done)
             if (.not. settling%settled) cycle
             best_move = 0.0_wp
+            best = settling
             exit
         end do
         settling%settled = best_move <= loose_end_tolerance
-        if (.not. settling%settled) return
+        ! More strips start from where the ends were going.
+        if (.not. settling%settled .or. level%strips_per_patch < level%most_strips) return
+        ! Passes after the best have left other patches.
+        settling = best
+        settling%settled = .true.
+        if (best_move > 0.0_wp) call take_back(workspace, strips, settling)
         call let_edges_follow(workspace, compliance, demand, level, settling, strips, result)
     end subroutine settle_in_turn
 
