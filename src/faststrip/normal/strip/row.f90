@@ -1,7 +1,7 @@
 !> Where the patches of a contact are, by a row of cells that stay where they are.
 !>
-!> Passes of a few strips between moving ends find the patches of most gaps. Where these are about
-!> to meet, or one is much wider than the other, the ends split and join without rest. Here the
+!> The shape of a Hertz contact is near the patches of most gaps. Where these are about to meet, or
+!> one is much wider than the other, strips and ends do not converge from there. Here the
 !> places where the gap lies below a level are cut into even cells; a cell with pressure is a
 !> strip whose length is that of an ellipse like its patch, and cells without pressure leave or come
 !> back until no pressure is negative and no cell overlaps. Only the gap on the centre line is

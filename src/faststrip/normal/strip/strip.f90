@@ -2,16 +2,13 @@
 !>
 !> The paper gives the influence of a strip and not the algorithm that finds the patch. Here the
 !> strips of a patch always fill it: its two ends move until the squared strip length, carried on
-!> by a quadratic through the last three strips, vanishes at them. Near the solution strips and
-!> ends are solved for together (`faststrip_normal_strip_coupled`), and from the shape of a Hertz
-!> contact where that succeeds. Elsewhere passes alternate between Newton's method for given edges
-!> (`faststrip_normal_strip_newton`) and moving ends; strips that leave cut or split a patch, and a
-!> scan outside the patches finds gaps that the deformed surfaces have closed, which makes patches
-!> appear, grow or merge (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`).
-!>
-!> Many strips are reached by levels: 7 find the patches, 15 and more refine them. Where 20 or
-!> fewer strips do not converge twice as many are tried; a gap whose ends do not converge with them
-!> either, within a bounded work, gets the answer of `faststrip_normal_cells_lattice`.
+!> by a quadratic through the last three strips, vanishes at them. Strips and ends are solved for
+!> together (`faststrip_normal_strip_converge`), from the last solution or the shape of a Hertz
+!> contact; where that does not succeed, from the patches of a row of cells, together or in turn
+!> (`faststrip_normal_strip_levels`, `faststrip_normal_strip_settle`). A scan outside the patches
+!> finds gaps that the deformed surfaces have closed, which makes patches appear, grow or merge
+!> (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`). A gap whose ends do not
+!> converge, within a bounded work, gets the answer of `faststrip_normal_cells_lattice`.
 !>
 !> Of a gap and its mirror image one is solved and mirrored (in a history of warm starts the first
 !> gap decides): what is decided on the way, rounding included, is the same on a left and on a right
@@ -59,8 +56,8 @@ contains
     !> `st_linear_algebra` (a contact beyond all proportion; fill values below the gap),
     !> `st_no_finite_patch` (a contact that is flat or hollow along x).
     !> Named limitations: `st_fallback_used`, the ends did not converge and
-    !> `faststrip_normal_cells_lattice` gave the answer; `st_more_strips`, more strips than asked
-    !> were used, because those did not converge or are fewer than three;
+    !> `faststrip_normal_cells_lattice` gave the answer; `st_more_strips`, three strips were used
+    !> where fewer were asked;
     !> `st_overlap_left`, in a rough gap the surfaces overlap beside the strips;
     !> `st_edge_of_data`, the contact runs to the end of the gap's points; `st_flat_along_x` and
     !> `st_conformal`: see `faststrip_normal_limitations`;
@@ -199,7 +196,7 @@ contains
         if (options%strips_per_patch /= strips_auto .and. n_settled > options%strips_per_patch) then
             words = count_text(n_settled)
             call add_words(words, ' strips used where '//count_text(options%strips_per_patch))
-            call add_words(words, ' were asked, which did not converge')
+            call add_words(words, ' were asked, which are too few')
             call add_limitation(status, st_more_strips, words)
         end if
         ! Of itself, auto asks for as many as are resolved.
