@@ -172,14 +172,7 @@ contains
                 if (at_rest .or. moved < end_tolerance) exit
             end if
             at_rest = moved < end_tolerance
-            if (moved > loose_end_tolerance) then
-                tolerance = far_tolerance
-            else if (.not. at_rest) then
-                tolerance = near_tolerance
-            end if
-            ! Later passes count, whatever they reach.
-            if (at_rest .or. pass >= max_coarse_passes) tolerance = level%tolerance
-            tolerance = max(tolerance, level%tolerance)
+            tolerance = next_tolerance(level%tolerance, pass, moved)
             if (.not. moved < coupling_move .or. couplings == max_couplings) cycle
             couplings = couplings + 1
             call couple(workspace, compliance, demand, level, settling, strips, result, done)
@@ -197,6 +190,19 @@ contains
         if (best_move > 0.0_wp) call take_back(workspace, strips, settling)
         call let_edges_follow(workspace, compliance, demand, level, settling, strips, result)
     end subroutine settle_in_turn
+
+    !> The tolerance of the next pass, by how far the ends have moved in this one.
+    pure real(wp) function next_tolerance(tolerance, pass, moved)
+        real(wp), intent(in) :: tolerance ! of a pass that may stand
+        integer, intent(in) :: pass
+        real(wp), intent(in) :: moved     ! strip widths
+
+        next_tolerance = far_tolerance
+        if (moved <= loose_end_tolerance) next_tolerance = near_tolerance
+        ! Later passes count, whatever they reach.
+        if (moved < end_tolerance .or. pass >= max_coarse_passes) next_tolerance = tolerance
+        next_tolerance = max(next_tolerance, tolerance)
+    end function next_tolerance
 
     !> A solution whose edges follow the ends alone: let them follow the gap, at once or part by
     !> part. Where that does not succeed the last solution stays.
