@@ -8,7 +8,8 @@ module faststrip_normal_strips
     private
 
     public :: contact_strips_t, reserve_strips, copy_strips, mirror_strips, strip_load, strips_load
-    public :: starts_patch, first_of_patch, last_of_patch, usual_strips, usual_strip_tolerance
+    public :: starts_patch, ends_patch, first_of_patch, last_of_patch
+    public :: usual_strips, usual_strip_tolerance
 
     !> Strips across a patch where nobody says how many, and points along each.
     !> Tuned [strips]. Origin: chosen: errors against CONTACT below 2 %.
@@ -109,6 +110,15 @@ contains
         starts_patch = k == 1
         if (k > 1) starts_patch = strips%patch(k) /= strips%patch(k - 1)
     end function starts_patch
+
+    !> Is a strip the last of its patch?
+    pure logical function ends_patch(strips, k)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        integer, intent(in) :: k                     !! one of its strips
+
+        ends_patch = k == strips%n
+        if (k < strips%n) ends_patch = strips%patch(k + 1) /= strips%patch(k)
+    end function ends_patch
 
     !> The first strip of the patch that strip k belongs to.
     pure integer function first_of_patch(strips, k) result(first)

@@ -57,7 +57,7 @@ module faststrip_normal_estimate_errors
     use faststrip_normal_estimate_outside, only: look_elsewhere, is_outside
     use faststrip_normal_estimate_pressure, only: unresolved_in, longitudinal_pressure
     use faststrip_normal_estimate_samples, only: block, most_samples, sample, part_end
-    use faststrip_normal_strips, only: contact_strips_t, starts_patch
+    use faststrip_normal_strips, only: contact_strips_t, starts_patch, ends_patch
     use faststrip_normal_types, only: normal_result_t
     implicit none
     private
@@ -226,15 +226,6 @@ contains
         points%is_beside(points%n + 1:points%n + size(y)) = is_beside
         points%n = points%n + size(y)
     end subroutine put
-
-    !> Is a strip the last of its patch?
-    pure logical function ends_patch(strips, k)
-        type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: k
-
-        ends_patch = k == strips%n
-        if (k < strips%n) ends_patch = starts_patch(strips, k + 1)
-    end function ends_patch
 
     !> The gap that a pressure p in a strip of some width closes is H p times this, mm.
     pure real(wp) function wave_length(width, half_length) result(length)

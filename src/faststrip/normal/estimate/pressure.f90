@@ -20,7 +20,7 @@ module faststrip_normal_estimate_pressure
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
     use faststrip_normal_estimate_samples, only: usable, block
     use faststrip_normal_estimate_unresolved, only: unresolved_pressure, most_nodes
-    use faststrip_normal_strips, only: contact_strips_t, starts_patch, last_of_patch
+    use faststrip_normal_strips, only: contact_strips_t, starts_patch, ends_patch
     implicit none
     private
 
@@ -56,7 +56,7 @@ contains
 
         associate (left => strips%y_left(:strips%n), right => strips%y_right(:strips%n))
             has_left = .not. starts_patch(strips, k)
-            has_right = k < last_of_patch(strips, k)
+            has_right = .not. ends_patch(strips, k)
             n = 3
             node(:3) = [left(k), 0.5_wp*(left(k) + right(k)), right(k)]
             if (has_left .or. has_right) then
@@ -106,7 +106,7 @@ contains
                 width = strips%y_right(i) - strips%y_left(i)
                 if (modulo(j, 2) /= 0) then
                     ! The left end of a patch is not there; neither is the right one.
-                    if (i == last_of_patch(strips, i)) cycle
+                    if (ends_patch(strips, i)) cycle
                     width = 0.5_wp*(width + (strips%y_right(i + 1) - strips%y_left(i + 1)))
                 end if
                 weight(j) = 0.5_wp*width*off_centre_share &

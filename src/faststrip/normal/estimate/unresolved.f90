@@ -88,19 +88,22 @@ contains
             integer, intent(in) :: point(:)  ! at least three, ascending
             logical, intent(in) :: are_all   ! that lie between the nodes
 
-            real(wp), dimension(most_points) :: y, d, share
-            real(wp) :: total, smooth
+            real(wp), dimension(most_points) :: y, d, share, smooth
+            real(wp) :: total
             integer :: i, j, m, margin
 
             m = size(point)
             do i = 1, m
                 y(i) = curve%y(point(i))
-                smooth = coefficient(size(node))
-                do j = size(node) - 1, 1, -1
-                    smooth = coefficient(j) + (y(i) - node(j))*smooth
-                end do
-                d(i) = curve%h(point(i)) - smooth
+                d(i) = curve%h(point(i))
             end do
+            smooth(:m) = coefficient(size(node))
+            do j = size(node) - 1, 1, -1
+                do i = 1, m
+                    smooth(i) = coefficient(j) + (y(i) - node(j))*smooth(i)
+                end do
+            end do
+            d(:m) = d(:m) - smooth(:m)
             share(1) = 0.5_wp*(y(2) - y(1))
             share(m) = 0.5_wp*(y(m) - y(m - 1))
             share(2:m - 1) = 0.5_wp*(y(3:m) - y(1:m - 2))
