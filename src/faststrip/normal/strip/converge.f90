@@ -60,10 +60,11 @@ module faststrip_normal_strip_converge
     ! Origin: chosen for the time: coefficients are evaluated anew then.
     real(wp), parameter :: worth = 0.3_wp
     ! Tuned [1]: change from which coefficients are not trusted; the same with ends held. Origin:
-    ! convergence of hostile gaps: with .25 ends held ten of 880 fewer are `ok`, with .5 23.
-    real(wp), parameter :: trusted = 0.5_wp, trusted_held = 0.1_wp
-    ! Tuned [1]. Origin: chosen for the time: factors cost some steps.
-    real(wp), parameter :: slow = 0.5_wp ! steps that shrink less ask for new factors
+    ! convergence of hostile gaps: with .2 ends held 14 of 888 fewer are `ok`.
+    real(wp), parameter :: trusted = 0.5_wp, trusted_held = 0.06_wp
+    ! Tuned [1]. Origin: chosen for the time: factors cost some steps; with .25 warm ones take less,
+    ! cold ones more.
+    real(wp), parameter :: slow = 0.35_wp ! steps that shrink less ask for new factors
     ! Tuned [1]: a first step this large with old factors asks for new ones. Origin: as above.
     real(wp), parameter :: far = 0.5_wp
     ! Tuned [1]: part of a step with new factors that does not shrink; least part of any. Origin:
@@ -96,7 +97,8 @@ module faststrip_normal_strip_converge
         logical :: again = .false.     ! are coefficients to be evaluated anew?
         logical :: looked = .false.    ! were edges looked at near the solution?
         real(wp) :: moved = 0.0_wp     ! edges that belong elsewhere, strip widths
-        logical :: fresh = .false., was_fresh = .false. ! are factors those of this step, the last?
+        logical :: fresh = .false., was_fresh = .false. ! are factors those of this step, the last
+                                                        ! that was taken?
         real(wp) :: size_now = 0.0_wp, size_before = beyond_all ! largest component of the steps
         real(wp) :: norm_before = beyond_all ! of residuals
         real(wp) :: scale = 1.0_wp     ! part of a step that is taken
@@ -167,9 +169,14 @@ contains
         logical, intent(out) :: possible ! false: too often
 
         possible = .true.
-        if (.not. course%again) course%again = carried_change(workspace%carried, workspace%strips) &
-                                               > merge(trusted_held, trusted, course%held)
-        if (.not. course%again) return
+        if (.not. course%again) then
+            course%again = carried_change(workspace%carried, workspace%strips) &
+                           > merge(trusted_held, trusted, course%held)
+            if (.not. course%again) return
+            ! Factors of coefficients that have changed so much do not serve any more: steps by
+            ! them go back and forth.
+            workspace%newton%kept = .false.
+        end if
         possible = course%evaluations < max_evaluations .or. course%held
         if (.not. possible) return
         course%evaluations = course%evaluations + 1
@@ -200,7 +207,6 @@ contains
 
         possible = .true.
         course%p_scale = maxval(workspace%strips%p0(:workspace%strips%n))
-        course%was_fresh = course%fresh
         course%fresh = .not. workspace%newton%kept
         if (course%fresh) then
             possible = course%factored < max_factorings
@@ -351,6 +357,7 @@ contains
             ! Steps that do not shrink with new factors either go back and forth.
             scale = merge(damping, 1.0_wp, course%fresh .and. course%was_fresh &
                                            .and. course%size_now > slow*course%size_before)
+            course%was_fresh = course%fresh
             scale = min(scale, limit_of(step(n + 1:2*n), max_log_length_step), &
                         limit_of(step(2*n + 1:2*n + 1), max_penetration_step))
             do e = 1, size(ends)
