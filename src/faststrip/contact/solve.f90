@@ -33,7 +33,7 @@ module faststrip_contact_solve
 contains
 
     !> Hand over the gap that the next solutions are for.
-    subroutine set_contact_gap(workspace, y, h, inv2r, status, inclination)
+    subroutine set_contact_gap(workspace, y, h, inv2r, status, inclination, slope)
         type(workspace_t), intent(inout) :: workspace !! with capacity for as many points
         real(wp), intent(in) :: y(:)          !! lateral coordinate, strictly increasing, mm
         real(wp), intent(in) :: h(:)          !! gap on the line x = 0, mm
@@ -41,13 +41,14 @@ contains
         type(status_t), intent(out) :: status !! those of `check_gap`, `st_workspace_too_small`
         real(wp), intent(in), optional :: inclination(:)
             !! how far the surfaces have turned from the tangent plane at y = 0, finite, rad
+        real(wp), intent(in), optional :: slope(:) !! dh/dy, where it is known
 
         type(environment_t) :: environment
 
         call hold_environment(environment)
         workspace%solved_by = 0
         call clear_steps(workspace%steps)
-        call set_gap_curve_points(workspace%solver%curve, y, h, inv2r, status, inclination)
+        call set_gap_curve_points(workspace%solver%curve, y, h, inv2r, status, inclination, slope)
         call restore_environment(environment)
     end subroutine set_contact_gap
 

@@ -9,19 +9,16 @@
 !> Source of the weights: CONTACT's user guide, the contact search of wheel and rail.
 module faststrip_geometry_overlap
     use faststrip_base_kinds, only: wp
-    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_t, rail_height
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height
+    use faststrip_geometry_wheel_outline, only: outline_t, see_points, may_be_lower, cell_end
     implicit none
     private
 
-    public :: region_t, find_regions, lowest_height, join_regions, region_distance, most_regions
+    public :: region_t, find_regions, join_regions, region_distance, most_regions, depth_weight
 
     !> Most regions of one wheel.
     !> Tuned [regions]. Origin: capacity; the deepest ones are kept.
     integer, parameter :: most_regions = 8
-
-    !> Power of the depth in a region's weight.
-    !> Given: the square of the overlap, over its length.
-    real(wp), parameter :: depth_power = 2.5_wp
 
     !> A region of overlap; of several that were joined, the whole.
     type :: region_t
@@ -41,19 +38,17 @@ module faststrip_geometry_overlap
 
 contains
 
-    !> The lowest height of an outline over the rail; `huge` where they never stand one over the
-    !> other.
-    pure real(wp) function lowest_height(outline) result(lowest)
-        type(outline_t), intent(in) :: outline !! found
+    !> The weight of a place in a region: the square of the overlap, over its length.
+    elemental real(wp) function depth_weight(depth) result(weight)
+        real(wp), intent(in) :: depth !! >= 0, mm
 
-        lowest = huge(lowest)
-        if (any(outline%is_there)) lowest = minval(outline%height, mask=outline%is_there)
-    end function lowest_height
+        weight = depth**2*sqrt(depth)
+    end function depth_weight
 
     !> The regions in which a wheel that is lowered by `lowered` overlaps its rail, along y.
     subroutine find_regions(pair, outline, lowered, regions, n)
         type(wheel_on_rail_t), intent(in) :: pair     !! made
-        type(outline_t), intent(in) :: outline        !! of the wheel
+        type(outline_t), intent(inout) :: outline     !! of the wheel; points are looked at
         real(wp), intent(in) :: lowered               !! beyond the state of the outline, mm
         type(region_t), intent(out) :: regions(most_regions) !! the first `n` count
         integer, intent(out) :: n                     !! number of regions
@@ -66,7 +61,10 @@ contains
         top = 1
         i = 1
         do while (i <= size(outline%x))
-            if (.not. overlaps(i)) then
+            if (.not. may_be_lower(outline, i, lowered)) then
+                i = cell_end(outline, i) + 1
+                cycle
+            else if (.not. overlaps(i)) then
                 i = i + 1
                 cycle
             end if
@@ -93,19 +91,23 @@ contains
 
     contains
 
-        pure logical function overlaps(k)
+        logical function overlaps(k)
             integer, intent(in) :: k
 
+            overlaps = may_be_lower(outline, k, lowered)
+            if (.not. overlaps) return
+            call see_points(outline, pair, k, k)
             overlaps = outline%is_there(k)
             if (overlaps) overlaps = outline%height(k) < lowered
         end function overlaps
 
         ! The point between two regions that stands highest over the rail.
-        pure integer function highest_between(from, to) result(highest)
+        integer function highest_between(from, to) result(highest)
             integer, intent(in) :: from, to
 
             integer :: k
 
+            call see_points(outline, pair, from, to)
             highest = from
             do k = from + 1, to - 1
                 if (.not. outline%is_there(k)) then
@@ -136,23 +138,23 @@ contains
         subroutine weigh(region)
             type(region_t), intent(inout) :: region
 
-            real(wp) :: depth, share, z, slope
-            logical :: is_there
+            real(wp) :: depth, share
             integer :: k, before, after
 
+            call see_points(outline, pair, max(region%first - 1, 1), &
+                            min(region%last + 1, size(outline%x)))
             do k = region%first, region%last
                 depth = lowered - outline%height(k)
                 before = max(k - 1, 1)
                 after = min(k + 1, size(outline%x))
                 if (.not. outline%is_there(before)) before = k
                 if (.not. outline%is_there(after)) after = k
-                share = depth**depth_power*0.5_wp*abs(outline%y(after) - outline%y(before))
-                call rail_height(pair, outline%rail, outline%y(k), z, slope, is_there)
+                share = depth_weight(depth)*0.5_wp*abs(outline%y(after) - outline%y(before))
                 region%depth = max(region%depth, depth)
                 region%weight = region%weight + share
                 region%x = region%x + share*outline%x(k)
                 region%y = region%y + share*outline%y(k)
-                region%angle = region%angle + share*atan(slope)
+                region%angle = region%angle + share*atan(outline%below(k))
             end do
             region%left = end_of(region%first - 1, region%first)
             region%right = end_of(region%last + 1, region%last)
@@ -162,10 +164,9 @@ contains
                 region%angle = region%angle/region%weight
             else
                 k = (region%first + region%last)/2
-                call rail_height(pair, outline%rail, outline%y(k), z, slope, is_there)
                 region%x = outline%x(k)
                 region%y = outline%y(k)
-                region%angle = atan(slope)
+                region%angle = atan(outline%below(k))
             end if
         end subroutine weigh
 
@@ -186,7 +187,7 @@ contains
                     place(1) = place(1) + t*(outline%y(outside) - outline%y(inside))
                 end if
             end if
-            call rail_height(pair, outline%rail, place(1), place(2), slope, is_there)
+            call rail_height(pair, outline%state%rail(1), place(1), place(2), slope, is_there)
         end function end_of
     end subroutine find_regions
 

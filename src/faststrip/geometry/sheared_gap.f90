@@ -8,17 +8,17 @@
 !> rolling direction x, theta away (some hundredths on a flange).
 !>
 !> With s and B by least squares over the overlap, each point weighted as in `overlap`; a point y of
-!> the gap comes to lie at `x = x0 - f' sin(theta)/(2 A (cos(theta) - s sin(theta)))`, f its height.
+!> the gap comes to lie at `x = x0 - f' sin(theta)/(2 A (cos(theta) - s sin(theta)))`, f its height,
+!> and has the slope `f'/(cos(theta) - s sin(theta))`.
 module faststrip_geometry_sheared_gap
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_contact_frame, only: frame_gap_t
+    use faststrip_geometry_overlap, only: depth_weight
     implicit none
     private
 
     public :: turn_sheared_gap
 
-    ! Given: as of regions of overlap.
-    real(wp), parameter :: depth_power = 2.5_wp
     ! Tuned [1]: A s**2 over B beyond which no axes are sought. Origin: safeguard: the gap is no
     ! paraboloid.
     real(wp), parameter :: most_shear = 0.5_wp
@@ -58,6 +58,7 @@ contains
             x = along(i)
             gap%y(i) = turned(i)
             gap%h(i) = gap%h(i) + a*x**2
+            gap%slope(i) = gap%slope(i)/(cosine - s*sine)
             gap%inv2r(i) = gap%inv2r(i)*a_turned/a
         end do
 
@@ -135,7 +136,7 @@ contains
             if (gap%h(i) >= gap%overlap) return
             before = max(i - 1, 1)
             after = min(i + 1, gap%n)
-            weight_of = (gap%overlap - gap%h(i))**depth_power*(gap%y(after) - gap%y(before))
+            weight_of = depth_weight(gap%overlap - gap%h(i))*(gap%y(after) - gap%y(before))
         end function weight_of
     end subroutine fit_paraboloid
 end module faststrip_geometry_sheared_gap

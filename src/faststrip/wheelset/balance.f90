@@ -4,7 +4,7 @@ module faststrip_wheelset_balance
     use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_convergence, st_target_missed
-    use faststrip_geometry_overlap, only: lowest_height
+    use faststrip_geometry_wheel_outline, only: lowest_height
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_approach, only: usual_approach, largest_jump, near_enough, &
                                            most_growth, equilibrium, most_tries
@@ -282,7 +282,7 @@ contains
             end do
             if (.not. touches_enough) return
             do side = side_right, side_left
-                touch(side) = lowest_height(workspace%wheel(side)%outline)
+                call lowest_height(workspace%wheel(side)%outline, model%pair(side), touch(side))
             end do
         end function touches_enough
     end subroutine improve_balance

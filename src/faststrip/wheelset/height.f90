@@ -2,9 +2,8 @@
 module faststrip_wheelset_height
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, number_text, st_no_contact
-    use faststrip_geometry_overlap, only: lowest_height
-    use faststrip_geometry_wheel_on_rail, only: find_outline
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, mirrored_state, wheelset_axes
+    use faststrip_geometry_wheel_outline, only: move_outline, lowest_height
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, mirrored_state
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, wheel_result_t, &
                                         side_right, side_left
     use faststrip_wheelset_wheel, only: solve_wheel_at
@@ -24,15 +23,9 @@ contains
         real(wp), intent(out) :: touch                         !! z of first touch, mm
         type(status_t), intent(inout) :: status                !! `st_no_contact`
 
-        type(wheelset_state_t) :: at_zero
-
-        at_zero = as_right(state, side)
-        at_zero%z = 0.0_wp
-        associate (wheel => workspace%wheel(side))
-            wheel%axes = wheelset_axes(at_zero, model%radius)
-            call find_outline(model%pair(side), wheel%axes, at_zero%rail(side_right), &
-                              wheel%outline)
-            touch = lowest_height(wheel%outline)
+        associate (outline => workspace%wheel(side)%outline)
+            call move_outline(outline, as_right(state, side), model%radius)
+            call lowest_height(outline, model%pair(side), touch)
         end associate
         if (touch >= huge(touch)) &
             call set_status(status, st_no_contact, 'wheel and rail do not overlap at y ' // &

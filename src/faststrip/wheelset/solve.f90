@@ -17,7 +17,8 @@ module faststrip_wheelset_solve
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_profile, only: profile_t
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
-    use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail, reserve_outline
+    use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail
+    use faststrip_geometry_wheel_outline, only: reserve_outline
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state, reversed_state
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, usual_approach, most_tries
@@ -325,7 +326,6 @@ contains
             if (.not. demand%wants(side)) cycle
             call set_outline(model, workspace, state, side, touch, status)
             if (is_error(status)) return
-            workspace%wheel(side)%n = 0
             call try_height(model, workspace, state, side, state%z, result%wheel(side))
             if (is_error(result%wheel(side)%status)) then
                 status = result%wheel(side)%status

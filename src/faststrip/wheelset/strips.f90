@@ -1,5 +1,5 @@
-!> The strips of a wheel's contact, what each of them transmits, and where they are on the profiles
-!> of wheel and rail.
+!> The strips of a wheel's contact, what each of them transmits, where they are on the profiles of
+!> wheel and rail, and the gap that they were found for.
 !>
 !> A strip's place is that of its middle: the points of both profiles that lie above each other
 !> there along the contact's normal. Where the gap was turned into its principal axes the strip's
@@ -22,7 +22,7 @@ module faststrip_wheelset_strips
     implicit none
     private
 
-    public :: wheel_strips_t, find_wheel_strips
+    public :: wheel_strips_t, find_wheel_strips, find_wheel_gap
 
     !> Strips of one contact, in its frame, and their places.
     type :: wheel_strips_t
@@ -46,11 +46,8 @@ contains
         type(status_t), intent(out) :: status
             !! `st_bad_argument`: no such contact; those of `sample_gap`
 
-        call clear_status(status)
-        if (i < 1 .or. i > result%wheel(side)%n .or. .not. workspace%has_last) then
-            call set_status(status, st_bad_argument, 'there is no such contact of the wheel')
-            return
-        end if
+        call check_place(workspace, result, side, i, status)
+        if (is_error(status)) return
         call reserve_wheel_strips(found, size(workspace%wheel(side)%contact(i)%strips%p0), status)
         if (is_error(status)) return
         associate (contact => workspace%wheel(side)%contact(i))
@@ -62,6 +59,52 @@ contains
                          result%wheel(side)%z, found, status)
         if (side == side_left) call mirror(found)
     end subroutine find_wheel_strips
+
+    ! Is there such a contact?
+    pure subroutine check_place(workspace, result, side, i, status)
+        type(wheelset_workspace_t), intent(in) :: workspace
+        type(wheelset_result_t), intent(in) :: result
+        integer, intent(in) :: side, i
+        type(status_t), intent(out) :: status
+
+        call clear_status(status)
+        if (i < 1 .or. i > result%wheel(side)%n .or. .not. workspace%has_last) &
+            call set_status(status, st_bad_argument, 'there is no such contact of the wheel')
+    end subroutine check_place
+
+    !> The gap of a contact of the last solution, by all points of the wheel's profile: it is in
+    !> `workspace%wheel(side)%gap`, of a left wheel as in a mirror. A gap that was smoothed is what
+    !> was solved.
+    subroutine find_wheel_gap(model, workspace, result, side, i, status)
+        type(wheelset_model_t), intent(in) :: model            !! made
+        type(wheelset_workspace_t), intent(inout) :: workspace !! of the solution; gets the gap
+        type(wheelset_result_t), intent(in) :: result          !! of the same solution
+        integer, intent(in) :: side                            !! `side_right`, `side_left`
+        integer, intent(in) :: i                               !! contact of that wheel
+        type(status_t), intent(out) :: status
+            !! `st_bad_argument`: no such contact; those of `sample_gap`
+
+        type(contact_frame_t) :: frame
+
+        call check_place(workspace, result, side, i, status)
+        if (is_error(status)) return
+        associate (wheel => workspace%wheel(side), gap => workspace%wheel(side)%gap)
+            if (model%case%smoothing > 0.0_wp) then
+                associate (curve => wheel%contact(i)%solver%curve)
+                    gap%n = curve%n
+                    gap%y(:gap%n) = curve%y(:gap%n)
+                    gap%h(:gap%n) = curve%h(:gap%n)
+                    gap%inv2r(:gap%n) = curve%inv2r(:gap%n)
+                    gap%inclination(:gap%n) = curve%inclination(:gap%n)
+                end associate
+                return
+            end if
+            call place_frame(model%pair(side), wheel%outline%state%rail(1), wheel%region(i), frame)
+            call sample_gap(model%pair(side), wheel%outline, wheel%region(i), &
+                            result%wheel(side)%z, frame, model%gap_height, .true., gap, status)
+            if (.not. is_error(status)) call turn_sheared_gap(gap)
+        end associate
+    end subroutine find_wheel_gap
 
     !> Allocate for strips of a contact.
     subroutine reserve_wheel_strips(found, capacity, status)
@@ -97,30 +140,22 @@ contains
         integer :: k, j
 
         associate (gap => workspace%gap, strips => found%strips)
-            call place_frame(pair, workspace%outline%rail, workspace%region(i), frame)
+            call place_frame(pair, workspace%outline%state%rail(1), workspace%region(i), frame)
             call sample_gap(pair, workspace%outline, workspace%region(i), lowered, frame, &
-                            model%gap_height, gap, status)
+                            model%gap_height, model%case%smoothing > 0.0_wp, gap, status)
             if (is_error(status)) return
             call turn_sheared_gap(gap)
-            ! For now the number of the gap's point, and how far it is to the next.
             j = 1
             do k = 1, strips%n
                 y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
                 do while (j < gap%n - 1 .and. y > gap%y(j + 1))
                     j = j + 1
                 end do
-                found%wheel(1, k) = j + (y - gap%y(j))/(gap%y(j + 1) - gap%y(j))
-            end do
-            call sample_gap(pair, workspace%outline, workspace%region(i), lowered, frame, &
-                            model%gap_height, gap, status)
-            if (is_error(status)) return
-            do k = 1, strips%n
-                j = min(max(int(found%wheel(1, k)), 1), gap%n - 1)
-                part = found%wheel(1, k) - j
-                found%rail(:, k) = rail_point(pair, workspace%outline%rail, frame, gap%y(j) &
-                                              + part*(gap%y(j + 1) - gap%y(j)))
-                j = gap%first + j - 1
-                y = pair%y(j) + part*(pair%y(j + 1) - pair%y(j))
+                part = (y - gap%y(j))/(gap%y(j + 1) - gap%y(j))
+                found%rail(:, k) = rail_point(pair, workspace%outline%state%rail(1), frame, &
+                                              gap%across(j) + part*(gap%across(j + 1) &
+                                                                    - gap%across(j)))
+                y = gap%wheel(j) + part*(gap%wheel(j + 1) - gap%wheel(j))
                 found%wheel(1, k) = y
                 call profile_at(pair%wheel, y, found%wheel(2, k), dz, d2z, inside)
             end do

@@ -8,8 +8,9 @@ module faststrip_wheelset_types
     use faststrip_geometry_contact_frame, only: frame_gap_t
     use faststrip_geometry_overlap, only: region_t, most_regions
     use faststrip_geometry_undeformed_gap, only: standard_gap_height
-    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_t
-    use faststrip_geometry_wheelset_state, only: wheelset_axes_t, wheelset_state_t
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t
+    use faststrip_geometry_wheel_outline, only: outline_t
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t
     implicit none
     private
 
@@ -120,7 +121,6 @@ module faststrip_wheelset_types
         type(region_t) :: region(most_contacts)       !! of the last solution
         logical :: is_guided = .false.
             !! is a height being looked for by strips, for another method to take?
-        type(wheelset_axes_t) :: axes                 !! of the outline
     end type wheel_workspace_t
 
     !> Everything that solutions need beside the model; owned by the caller, one per thread.

@@ -42,6 +42,10 @@ module faststrip_geometry_gap_curve
     ! much, a hundredth of those of a patch.
     real(wp), parameter :: double_height = 1.0e-4_wp
 
+    ! Tuned [1]: how much slopes may differ from that of the chord. Origin: an arc of 6 mm does so by
+    ! 0.07 over 0.8 mm; a kink of twice as much is one of the profile.
+    real(wp), parameter :: most_turn = 0.08_wp
+
     !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
     type :: gap_curve_t
         integer :: version = 0   !! of what was set: changes whenever a gap is taken over
@@ -120,8 +124,9 @@ contains
         end if
     end subroutine set_gap_curve
 
-    !> The same from plain arrays.
-    subroutine set_gap_curve_points(curve, y, h, inv2r, status, inclination)
+    !> The same from plain arrays. Where slopes are given that fit the heights, the curve has them:
+    !> each interval is the cubic of its two ends.
+    subroutine set_gap_curve_points(curve, y, h, inv2r, status, inclination, slope)
         type(gap_curve_t), intent(inout) :: curve !! reserved beforehand
         real(wp), intent(in) :: y(:)              !! lateral coordinate, strictly increasing, mm
         real(wp), intent(in) :: h(:)              !! gap on the line x = 0, mm
@@ -129,11 +134,12 @@ contains
         type(status_t), intent(out) :: status     !! those of `check_gap`, `st_workspace_too_small`
         real(wp), intent(in), optional :: inclination(:)
             !! of the surfaces from y = 0 on, finite, rad
+        real(wp), intent(in), optional :: slope(:) !! h' at the points
 
         call check_capacity(curve, size(y), status)
         if (.not. is_error(status)) call check_gap_points(y, h, inv2r, status, inclination)
         if (is_error(status)) return
-        call take_points(curve, y, h, inv2r, status, inclination)
+        call take_points(curve, y, h, inv2r, status, inclination, slope)
     end subroutine set_gap_curve_points
 
     !> The same from a curve that was set: nothing is checked or fitted again. Allocates nothing.
@@ -249,13 +255,14 @@ contains
         end subroutine take_middle
     end subroutine join_doubles
 
-    subroutine take_points(curve, y, h, inv2r, status, inclination)
+    subroutine take_points(curve, y, h, inv2r, status, inclination, slope)
         type(gap_curve_t), intent(inout) :: curve
         real(wp), intent(in) :: y(:), h(:), inv2r(:)
         type(status_t), intent(inout) :: status
-        real(wp), intent(in), optional :: inclination(:)
+        real(wp), intent(in), optional :: inclination(:), slope(:)
 
         integer :: n, side
+        logical :: has_slopes
 
         n = size(y)
         curve%n = 0
@@ -276,12 +283,22 @@ contains
             curve%inv2r(:n) = inv2r
             if (present(inclination)) curve%inclination(:n) = inclination
         end if
-        call join_doubles(curve, n)
+        has_slopes = present(slope)
+        if (has_slopes) has_slopes = slopes_fit(y, h, slope)
+        if (has_slopes) then
+            if (side < 0) then
+                call set_slopes(curve, -slope(n:1:-1))
+            else
+                call set_slopes(curve, slope)
+            end if
+        else
+            call join_doubles(curve, n)
+            call torn_spline_setup(curve%y(:n), curve%h(:n), curve%slope_from(:n), &
+                                   curve%slope_to(:n), curve%bend(:n), curve%is_torn(:n), &
+                                   curve%is_step(:n), curve%has_steps, curve%work, status)
+            if (is_error(status)) return
+        end if
         curve%least_inv2r = flattest_ratio*usual_inv2r(curve%inv2r(:n))
-        call torn_spline_setup(curve%y(:n), curve%h(:n), curve%slope_from(:n), &
-                               curve%slope_to(:n), curve%bend(:n), curve%is_torn(:n), &
-                               curve%is_step(:n), curve%has_steps, curve%work, status)
-        if (is_error(status)) return
         curve%n = n
         curve%is_image = .false.
         call cut_into_pieces(n, curve%y, curve%h, curve%bend, curve%slope_from, curve%slope_to, &
@@ -297,6 +314,37 @@ contains
                 call set_blocks(curve%inclined, curve%inclination(:n))
         end if
     end subroutine take_points
+
+    !> Is the curve of these slopes near to its chords everywhere? Where it is not there is a step or
+    !> a kink, of which slopes at points tell nothing.
+    pure logical function slopes_fit(y, h, slope) result(fit)
+        real(wp), intent(in) :: y(:), h(:), slope(:)
+
+        real(wp) :: secant, worst
+        integer :: i
+
+        worst = 0.0_wp
+        do i = 1, size(y) - 1
+            secant = (h(i + 1) - h(i))/(y(i + 1) - y(i))
+            worst = max(worst, abs(slope(i) - secant), abs(slope(i + 1) - secant))
+        end do
+        fit = worst <= most_turn
+    end function slopes_fit
+
+    !> The curve through the points with these slopes.
+    pure subroutine set_slopes(curve, slope)
+        type(gap_curve_t), intent(inout) :: curve ! its points are set
+        real(wp), intent(in) :: slope(:)
+
+        associate (n => size(slope))
+            curve%slope_from(:n) = slope
+            curve%slope_to(:n - 1) = slope(2:)
+            ! Nothing swings.
+            curve%bend(:n) = huge(1.0_wp)
+            curve%is_step(:n) = .false.
+        end associate
+        curve%has_steps = .false.
+    end subroutine set_slopes
 
     !> -1: the gap counts as a mirror image; 1: its mirror image does; 0: it is its own. The image
     !> is that which is lower, or has its point farther from y = 0, or the smaller longitudinal

@@ -23,8 +23,8 @@ module faststrip_geometry_wheel_on_rail
     implicit none
     private
 
-    public :: wheel_on_rail_t, outline_t
-    public :: make_wheel_on_rail, reserve_outline, find_outline, rail_height, outline_point
+    public :: wheel_on_rail_t
+    public :: make_wheel_on_rail, rail_height, rail_span, steepest_rail, outline_point
     public :: rail_origin, turned, on_rail_profile
 
     ! Distance of the rail's samples, of which regions of overlap are found, mm; between them a
@@ -36,6 +36,9 @@ module faststrip_geometry_wheel_on_rail
     ! Tuned [1]: slope of the rail beyond which its ends are left out. Origin: safeguard: no wheel
     ! touches a flank that stands upright, nor is there a cubic through it.
     real(wp), parameter :: steepest = 50.0_wp
+    ! Tuned [samples]: of which the largest slope is known. Origin: chosen: 1 mm, as far as cells of
+    ! an outline may move until they are looked at.
+    integer, parameter :: steep_samples = 20
     ! Tuned [mm]: how near to it on a rail that is turned. Origin: safeguard: above rounding; wheels
     ! on turned rails change by some last digits with a tenth.
     real(wp), parameter :: near_point = 1.0e-11_wp
@@ -56,18 +59,10 @@ module faststrip_geometry_wheel_on_rail
         real(wp) :: sample_step = 0.0_wp   !! to the next ones, mm
         real(wp), allocatable :: sample(:) !! height of the rail in the track, mm
         real(wp), allocatable :: sample_slope(:) !! its slope
+        real(wp), allocatable :: steep(:)  !! largest slope in each `steep_samples` of them, and to
+                                           !! the next
+        real(wp) :: depth = 0.0_wp         !! largest z of the samples from the rail's origin, mm
     end type wheel_on_rail_t
-
-    !> The outline of a wheel over its rail; the points are those of the wheel's profile.
-    type :: outline_t
-        type(rail_state_t) :: rail          !! as it lies below the wheel
-        real(wp), allocatable :: x(:)       !! in the track, mm
-        real(wp), allocatable :: y(:)       !! the same, mm
-        real(wp), allocatable :: z(:)       !! the same, with the state's z, mm
-        real(wp), allocatable :: slope(:)   !! angle of the outline in the track, rad
-        real(wp), allocatable :: height(:)  !! of the wheel's point over the rail, mm
-        logical, allocatable :: is_there(:) !! is there an outline, over the rail?
-    end type outline_t
 
 contains
 
@@ -155,6 +150,12 @@ contains
                 y = min(y_first + i*pair%sample_step, y_last)
                 call profile_at(rail, y, pair%sample(i), pair%sample_slope(i), d2z, inside)
             end do
+            allocate (pair%steep(0:(n - 1)/steep_samples))
+            do i = 0, ubound(pair%steep, 1)
+                pair%steep(i) = maxval(abs(pair%sample_slope(i*steep_samples: &
+                                                             min((i + 1)*steep_samples, n))))
+            end do
+            pair%depth = maxval(abs(pair%sample))
             pair%sample = pair%sample + pair%z_rail
         end associate
     end subroutine sample_rail
@@ -209,6 +210,55 @@ contains
 
         place = turned(point - rail_origin(pair, rail), -rail%roll)
     end function on_rail_profile
+
+    !> The first and the last y of a rail as it lies, mm, in the track.
+    pure function rail_span(pair, rail) result(span)
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        type(rail_state_t), intent(in) :: rail    !! as it lies
+        real(wp) :: span(2)                       !! mm; of a turned rail a little more
+
+        span = pair%y_sample + rail%y + [0.0_wp, ubound(pair%sample, 1)*pair%sample_step]
+        if (abs(rail%roll) > 0.0_wp) span = span + [-1.0_wp, 1.0_wp]*moved_aside(pair, rail)
+    end function rail_span
+
+    ! How far points of a rail are moved to the side by its roll, mm.
+    pure real(wp) function moved_aside(pair, rail)
+        type(wheel_on_rail_t), intent(in) :: pair
+        type(rail_state_t), intent(in) :: rail
+
+        moved_aside = pair%depth*abs(sin(rail%roll)) &
+                      + (1.0_wp - cos(rail%roll))*maxval(abs(pair%y_sample - pair%y_rail &
+                        + [0.0_wp, ubound(pair%sample, 1)*pair%sample_step]))
+    end function moved_aside
+
+    !> The largest slope of a rail as it lies between two places, or more.
+    pure real(wp) function steepest_rail(pair, rail, left, right) result(slope)
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        type(rail_state_t), intent(in) :: rail    !! as it lies
+        real(wp), intent(in) :: left              !! in the track, mm
+        real(wp), intent(in) :: right             !! in the track, not before, mm
+
+        real(wp) :: aside, turn
+        integer :: first, last
+
+        aside = 0.0_wp
+        if (abs(rail%roll) > 0.0_wp) aside = moved_aside(pair, rail)
+        first = bin_of(left - aside)
+        last = bin_of(right + aside)
+        slope = maxval(pair%steep(first:last))
+        if (.not. abs(rail%roll) > 0.0_wp) return
+        turn = tan(min(atan(slope) + abs(rail%roll), atan(steepest)))
+        slope = max(slope, turn)
+
+    contains
+
+        pure integer function bin_of(y)
+            real(wp), intent(in) :: y
+
+            bin_of = min(max(int((y - rail%y - pair%y_sample)/(pair%sample_step*steep_samples)), &
+                             0), ubound(pair%steep, 1))
+        end function bin_of
+    end function steepest_rail
 
     !> Height and slope of a rail as it lies.
     pure subroutine rail_height(pair, rail, y, z, slope, is_there)
@@ -271,47 +321,6 @@ contains
         slope = (c1 + t*(2.0_wp*(secant - c1 - c3) + 3.0_wp*t*c3))/pair%sample_step
     end subroutine height_in_design
 
-    !> Allocate for the outline of a pair.
-    subroutine reserve_outline(outline, pair)
-        type(outline_t), intent(inout) :: outline !! sized
-        type(wheel_on_rail_t), intent(in) :: pair !! made
-
-        integer :: n
-
-        n = size(pair%y)
-        if (allocated(outline%x)) then
-            if (size(outline%x) == n) return
-            deallocate (outline%x, outline%y, outline%z, outline%slope, outline%height, &
-                        outline%is_there)
-        end if
-        allocate (outline%x(n), outline%y(n), outline%z(n), outline%slope(n), outline%height(n), &
-                  source=0.0_wp)
-        allocate (outline%is_there(n), source=.false.)
-    end subroutine reserve_outline
-
-    !> The outline of a wheel, and how high each point of it stands over the rail.
-    pure subroutine find_outline(pair, axes, rail, outline)
-        type(wheel_on_rail_t), intent(in) :: pair   !! made
-        type(wheelset_axes_t), intent(in) :: axes   !! of the state, as a right pair
-        type(rail_state_t), intent(in) :: rail      !! the same
-        type(outline_t), intent(inout) :: outline   !! reserved
-
-        real(wp) :: point(3), z, slope
-        integer :: i
-
-        outline%rail = rail
-        do i = 1, size(pair%y)
-            call outline_point(pair, axes, pair%y(i), pair%z(i), pair%slope(i), point, &
-                               outline%slope(i), outline%is_there(i))
-            outline%x(i) = point(1)
-            outline%y(i) = point(2)
-            outline%z(i) = point(3)
-            if (.not. outline%is_there(i)) cycle
-            call rail_height(pair, rail, point(2), z, slope, outline%is_there(i))
-            outline%height(i) = z - point(3)
-        end do
-    end subroutine find_outline
-
     !> The point of the outline that a point of the wheel's profile is turned to.
     pure subroutine outline_point(pair, axes, y, z, dz, point, slope, is_there)
         type(wheel_on_rail_t), intent(in) :: pair !! made
@@ -320,7 +329,7 @@ contains
         real(wp), intent(in) :: z                 !! on the wheel's profile, mm
         real(wp), intent(in) :: dz                !! slope of the profile there
         real(wp), intent(out) :: point(3)         !! in the track, mm
-        real(wp), intent(out) :: slope            !! angle of the outline there, rad
+        real(wp), intent(out) :: slope            !! dz/dy of the outline in the track
         logical, intent(out) :: is_there          !! has the wheel an outline there?
 
         real(wp) :: radius, reach, along, sine, cosine, spoke(3), normal(3)
@@ -328,7 +337,7 @@ contains
         point = 0.0_wp
         slope = 0.0_wp
         ! sin(theta) e_x + cos(theta) e_z = reach sin(theta + turn)
-        reach = hypot(axes%ahead(1), axes%down(1))
+        reach = sqrt(axes%ahead(1)**2 + axes%down(1)**2)
         along = dz*axes%axle(1)/reach
         is_there = abs(along) < 1.0_wp
         if (.not. is_there) return
@@ -340,6 +349,6 @@ contains
         point = axes%centre + (pair%y_line + y)*axes%axle + radius*spoke
         normal = spoke - dz*axes%axle
         is_there = normal(3) > 0.0_wp .and. radius > 0.0_wp
-        slope = atan2(-normal(2), normal(3))
+        if (is_there) slope = -normal(2)/normal(3)
     end subroutine outline_point
 end module faststrip_geometry_wheel_on_rail

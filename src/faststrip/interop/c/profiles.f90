@@ -15,6 +15,7 @@ module faststrip_interop_c_profiles
                                                  contact_place
     use faststrip_interop_wheelset_new, only: profile_source_t
     use faststrip_numerics_reversal, only: reverse, reverse_negated
+    use faststrip_wheelset_strips, only: find_wheel_gap
     use faststrip_wheelset_types, only: side_left
     implicit none
     private
@@ -112,22 +113,25 @@ contains
             integer(c_int), pointer :: number
             real(c_double), pointer :: rows(:), heights(:), terms(:), angles(:)
 
+            call find_wheel_gap(handle%model, handle%workspace, handle%result, side, k, &
+                                handle%status)
+            if (is_error(handle%status)) return
             call c_f_pointer(n, number)
-            associate (curve => handle%workspace%wheel(side)%contact(k)%solver%curve)
-                number = curve%n
+            associate (gap => handle%workspace%wheel(side)%gap)
+                number = gap%n
                 if (number > capacity) then
                     call set_status(handle%status, st_workspace_too_small, 'the gap has more ' // &
                                     'points than the arrays: ' // count_text(number))
                     return
                 end if
-                rows => numbers_at(y, curve%n)
-                heights => numbers_at(h, curve%n)
-                terms => numbers_at(inv2r, curve%n)
-                angles => numbers_at(inclination, curve%n)
-                rows = curve%y(:curve%n)
-                heights = curve%h(:curve%n)
-                terms = curve%inv2r(:curve%n)
-                angles = curve%inclination(:curve%n)
+                rows => numbers_at(y, gap%n)
+                heights => numbers_at(h, gap%n)
+                terms => numbers_at(inv2r, gap%n)
+                angles => numbers_at(inclination, gap%n)
+                rows = gap%y(:gap%n)
+                heights = gap%h(:gap%n)
+                terms = gap%inv2r(:gap%n)
+                angles = gap%inclination(:gap%n)
             end associate
             ! A left wheel was solved in a mirror.
             if (side /= side_left) return

@@ -1,0 +1,240 @@
+!> The outline of a wheel over its rail, looked at where something can touch.
+!>
+!> The points of the outline are those of the wheel's profile. They are looked at in cells, and of
+!> each cell the least height over the rail is kept. When the wheelset moves, that height can
+!> shrink by no more than the motion allows: by the cell's own fall and by its way to the side times
+!> the steepest slope of the rail nearby. Only cells that may be low enough are looked at again, so
+!> that a step of a vehicle costs what its contacts cost; what is found is what all points would
+!> tell.
+!>
+!> With the roll phi and the yaw psi a point of the outline at the lever eta, on a circle of radius
+!> rho where the profile's slope is S, moves in a step by no more than
+!> `dy = |dy0| + eta (psi dpsi + phi dphi) + rho ((1 + S psi**2 phi) dphi + S psi (2 + S phi) dpsi)`
+!> to the side and by
+!> `dz = eta (dphi + psi phi dpsi) + rho ((phi + S psi**2) dphi + S psi (S + 2 phi) dpsi)` down,
+!> where the terms of the yaw grow by `1/cos(theta)`, theta the angle by which the outline is ahead.
+module faststrip_geometry_wheel_outline
+    use faststrip_base_kinds, only: wp
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_point, rail_height, &
+                                                rail_span, steepest_rail
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, wheelset_axes
+    implicit none
+    private
+
+    public :: outline_t, reserve_outline, move_outline, see_points, may_be_lower, lowest_height
+    public :: cell_of, cell_end
+
+    ! Tuned [points]: in a cell. Origin: measured: with half as many a step of a wheelset costs 2 %
+    ! more, with twice as many it costs the same.
+    integer, parameter :: cell_points = 16
+    ! Tuned [mm]: way to the side over which the rail's slope is taken as bounded by that around a
+    ! cell. Origin: chosen: rails bend little over it, and a cell is looked at once in a hundred
+    ! steps of 10 um.
+    real(wp), parameter :: largest_way = 1.0_wp
+    ! Tuned [1]: sine of theta beyond which a cell is always looked at. Origin: safeguard: the
+    ! bounds have 1/cos(theta), and the outline ends at 1.
+    real(wp), parameter :: farthest_ahead = 0.7_wp
+    ! Given: 1/cos(theta) there, rounded up.
+    real(wp), parameter :: most_ahead = 1.5_wp
+
+    !> The outline of a wheel over its rail; the points are those of the wheel's profile, and of
+    !> those that were seen.
+    type :: outline_t
+        type(wheelset_state_t) :: state     !! of it, as of a right wheel, at z = 0
+        type(wheelset_axes_t) :: axes       !! of the state
+        logical :: has_state = .false.      !! is there one?
+        real(wp), allocatable :: x(:)       !! in the track, mm
+        real(wp), allocatable :: y(:)       !! the same, mm
+        real(wp), allocatable :: z(:)       !! the same, at z = 0, mm
+        real(wp), allocatable :: slope(:)   !! dz/dy of the outline in the track
+        real(wp), allocatable :: height(:)  !! of the wheel's point over the rail, mm
+        real(wp), allocatable :: below(:)   !! dz/dy of the rail below it
+        logical, allocatable :: is_there(:) !! is there an outline, over the rail?
+        logical, allocatable :: is_seen(:)  !! are the points of a cell those of the state?
+        real(wp), allocatable :: low(:)     !! no point of a cell is lower over the rail, mm
+        real(wp), allocatable :: way(:)     !! how far it may go to the side until it is, mm
+        real(wp), allocatable :: steep(:)   !! steepest slope of the rail that far around it
+        real(wp), allocatable :: lever(:)   !! longest of a cell from the wheelset's centre, mm
+        real(wp), allocatable :: bend(:)    !! steepest slope of the wheel's profile in it
+        real(wp) :: largest_radius = 0.0_wp !! of the wheel, mm
+    end type outline_t
+
+contains
+
+    !> Allocate for the outline of a pair.
+    subroutine reserve_outline(outline, pair)
+        type(outline_t), intent(inout) :: outline !! sized
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+
+        integer :: n, cells, cell, first, last
+
+        n = size(pair%y)
+        cells = cell_of(n)
+        outline%has_state = .false.
+        if (allocated(outline%x)) then
+            if (size(outline%x) /= n) &
+                deallocate (outline%x, outline%y, outline%z, outline%slope, outline%height, &
+                            outline%below, outline%is_there, outline%is_seen, outline%low, outline%way, &
+                            outline%steep, outline%lever, outline%bend)
+        end if
+        if (.not. allocated(outline%x)) then
+            allocate (outline%x(n), outline%y(n), outline%z(n), outline%slope(n), &
+                      outline%height(n), outline%below(n), outline%low(cells), outline%way(cells), &
+                      outline%steep(cells), outline%lever(cells), outline%bend(cells), &
+                      source=0.0_wp)
+            allocate (outline%is_there(n), outline%is_seen(cells), source=.false.)
+        end if
+        do cell = 1, cells
+            first = (cell - 1)*cell_points + 1
+            last = min(first + cell_points - 1, n)
+            outline%lever(cell) = maxval(abs(pair%y_line + pair%y(first:last)))
+            outline%bend(cell) = maxval(abs(pair%slope(first:last)))
+        end do
+        outline%largest_radius = pair%radius + maxval(pair%z) - pair%z_line
+    end subroutine reserve_outline
+
+    !> The number of a point's cell.
+    elemental integer function cell_of(point)
+        integer, intent(in) :: point !! number of a point
+
+        cell_of = (point - 1)/cell_points + 1
+    end function cell_of
+
+    !> The last point of a point's cell.
+    pure integer function cell_end(outline, point)
+        type(outline_t), intent(in) :: outline !! reserved
+        integer, intent(in) :: point           !! number of a point
+
+        cell_end = min(cell_of(point)*cell_points, size(outline%x))
+    end function cell_end
+
+    !> The outline at another state: what was known of its cells counts as far as it can have moved.
+    pure subroutine move_outline(outline, state, radius)
+        type(outline_t), intent(inout) :: outline     !! reserved
+        type(wheelset_state_t), intent(in) :: state   !! as of a right wheel; its z does not count
+        real(wp), intent(in) :: radius                !! mean of the nominal radii, mm
+
+        real(wp) :: roll, yaw, d_roll, d_yaw, aside, down, s, yawed, tilt
+        integer :: cell
+
+        associate (before => outline%state)
+            yaw = max(abs(state%yaw), abs(before%yaw))
+            roll = max(abs(state%roll), abs(before%roll))
+            d_yaw = abs(state%yaw - before%yaw)
+            d_roll = abs(state%roll - before%roll)
+            if (outline%has_state .and. state%rail(1)%roll == before%rail(1)%roll) then
+                yawed = most_ahead*d_yaw*tan(yaw)
+                tilt = tan(yaw)**2
+                do cell = 1, size(outline%low)
+                    s = outline%bend(cell)
+                    aside = abs(state%y - before%y) + abs(state%rail(1)%y - before%rail(1)%y) &
+                            + outline%lever(cell)*(yawed + d_roll*roll) &
+                            + outline%largest_radius*(d_roll*(1.0_wp + s*tilt*roll) &
+                                                      + s*yawed*(2.0_wp + s*roll))
+                    down = abs(state%rail(1)%z - before%rail(1)%z) &
+                           + outline%lever(cell)*(d_roll + roll*yawed) &
+                           + outline%largest_radius*(d_roll*(roll + s*tilt) &
+                                                     + s*yawed*(s + 2.0_wp*roll))
+                    outline%way(cell) = outline%way(cell) - aside
+                    outline%low(cell) = outline%low(cell) - down - outline%steep(cell)*aside
+                    if (outline%way(cell) < 0.0_wp .or. s*tan(yaw) > farthest_ahead) &
+                        outline%low(cell) = -huge(1.0_wp)
+                end do
+            else
+                outline%low = -huge(1.0_wp)
+            end if
+        end associate
+        outline%is_seen = .false.
+        outline%has_state = .true.
+        outline%state = state
+        outline%state%z = 0.0_wp
+        outline%axes = wheelset_axes(outline%state, radius)
+    end subroutine move_outline
+
+    !> May a point of the outline be lower over the rail than this?
+    pure logical function may_be_lower(outline, point, height)
+        type(outline_t), intent(in) :: outline !! at a state
+        integer, intent(in) :: point           !! number of a point
+        real(wp), intent(in) :: height         !! mm
+
+        may_be_lower = outline%is_seen(cell_of(point)) .or. outline%low(cell_of(point)) < height
+    end function may_be_lower
+
+    !> Look at points, with all of their cells.
+    pure subroutine see_points(outline, pair, first, last)
+        type(outline_t), intent(inout) :: outline !! at a state
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        integer, intent(in) :: first              !! number of a point
+        integer, intent(in) :: last               !! number of another one, not before
+
+        integer :: cell
+
+        do cell = cell_of(first), cell_of(last)
+            if (.not. outline%is_seen(cell)) call see_cell(outline, pair, cell)
+        end do
+    end subroutine see_points
+
+    pure subroutine see_cell(outline, pair, cell)
+        type(outline_t), intent(inout) :: outline
+        type(wheel_on_rail_t), intent(in) :: pair
+        integer, intent(in) :: cell
+
+        real(wp) :: point(3), z, low, way, left, right, span(2)
+        logical :: has_outline
+        integer :: i
+
+        low = huge(1.0_wp)
+        way = largest_way
+        left = huge(1.0_wp)
+        right = -huge(1.0_wp)
+        span = rail_span(pair, outline%state%rail(1))
+        do i = (cell - 1)*cell_points + 1, min(cell*cell_points, size(outline%x))
+            call outline_point(pair, outline%axes, pair%y(i), pair%z(i), pair%slope(i), point, &
+                               outline%slope(i), has_outline)
+            outline%x(i) = point(1)
+            outline%y(i) = point(2)
+            outline%z(i) = point(3)
+            outline%is_there(i) = has_outline
+            if (.not. has_outline) then
+                way = 0.0_wp
+                cycle
+            end if
+            left = min(left, point(2))
+            right = max(right, point(2))
+            call rail_height(pair, outline%state%rail(1), point(2), z, outline%below(i), &
+                             outline%is_there(i))
+            if (outline%is_there(i)) then
+                outline%height(i) = z - point(3)
+                low = min(low, outline%height(i))
+            else
+                ! Beyond an end of the rail.
+                way = min(way, max(span(1) - point(2), point(2) - span(2), 0.0_wp))
+            end if
+        end do
+        outline%is_seen(cell) = .true.
+        outline%low(cell) = low
+        outline%way(cell) = way
+        outline%steep(cell) = 0.0_wp
+        if (right >= left) &
+            outline%steep(cell) = steepest_rail(pair, outline%state%rail(1), left - way, right + way)
+    end subroutine see_cell
+
+    !> The lowest height of an outline over the rail; `huge` where they never stand one over the
+    !> other.
+    pure subroutine lowest_height(outline, pair, lowest)
+        type(outline_t), intent(inout) :: outline !! at a state; some of its cells are looked at
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        real(wp), intent(out) :: lowest           !! mm
+
+        integer :: cell
+
+        cell = minloc(outline%low, dim=1)
+        if (.not. outline%is_seen(cell)) call see_cell(outline, pair, cell)
+        lowest = outline%low(cell)
+        do cell = 1, size(outline%low)
+            if (.not. outline%is_seen(cell) .and. outline%low(cell) < lowest) &
+                call see_cell(outline, pair, cell)
+            lowest = min(lowest, outline%low(cell))
+        end do
+    end subroutine lowest_height
+end module faststrip_geometry_wheel_outline
