@@ -9,9 +9,9 @@ module faststrip_wheelset_strips
     use faststrip_base_limits, only: most_steps, equal_within
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_bad_argument
-    use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap
+    use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame
+    use faststrip_geometry_contact_yawed, only: find_frame_gap
     use faststrip_geometry_profile, only: profile_at
-    use faststrip_geometry_sheared_gap, only: turn_sheared_gap
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height, on_rail_profile
     use faststrip_geometry_wheelset_state, only: rail_state_t
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, copy_strips, mirror_strips
@@ -44,7 +44,7 @@ contains
         integer, intent(in) :: i                               !! contact of that wheel
         type(wheel_strips_t), intent(inout) :: found           !! as they are, not in a mirror
         type(status_t), intent(out) :: status
-            !! `st_bad_argument`: no such contact; those of `sample_gap`
+            !! `st_bad_argument`: no such contact; those of `find_frame_gap`
 
         call check_place(workspace, result, side, i, status)
         if (is_error(status)) return
@@ -82,7 +82,7 @@ contains
         integer, intent(in) :: side                            !! `side_right`, `side_left`
         integer, intent(in) :: i                               !! contact of that wheel
         type(status_t), intent(out) :: status
-            !! `st_bad_argument`: no such contact; those of `sample_gap`
+            !! `st_bad_argument`: no such contact; those of `find_frame_gap`
 
         type(contact_frame_t) :: frame
 
@@ -100,9 +100,8 @@ contains
                 return
             end if
             call place_frame(model%pair(side), wheel%outline%state%rail(1), wheel%region(i), frame)
-            call sample_gap(model%pair(side), wheel%outline, wheel%region(i), &
-                            result%wheel(side)%z, frame, model%gap_height, .true., gap, status)
-            if (.not. is_error(status)) call turn_sheared_gap(gap)
+            call find_frame_gap(model%pair(side), wheel%outline, wheel%region(i), &
+                                result%wheel(side)%z, frame, model%gap_height, .true., gap, status)
         end associate
     end subroutine find_wheel_gap
 
@@ -141,10 +140,9 @@ contains
 
         associate (gap => workspace%gap, strips => found%strips)
             call place_frame(pair, workspace%outline%state%rail(1), workspace%region(i), frame)
-            call sample_gap(pair, workspace%outline, workspace%region(i), lowered, frame, &
-                            model%gap_height, model%case%smoothing > 0.0_wp, gap, status)
+            call find_frame_gap(pair, workspace%outline, workspace%region(i), lowered, frame, &
+                                model%gap_height, model%case%smoothing > 0.0_wp, gap, status)
             if (is_error(status)) return
-            call turn_sheared_gap(gap)
             j = 1
             do k = 1, strips%n
                 y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))

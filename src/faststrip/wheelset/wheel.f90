@@ -10,11 +10,11 @@ module faststrip_wheelset_wheel
     use faststrip_contact_methods, only: normal_auto, tangential_linear
     use faststrip_geometry_gap, only: gap_t
     use faststrip_wheelset_guide, only: needs_guide, take_guide
-    use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, sample_gap, &
-                                                in_track, along_normal
+    use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, in_track, &
+                                                along_normal
+    use faststrip_geometry_contact_yawed, only: find_frame_gap
     use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
                                           region_distance, most_regions
-    use faststrip_geometry_sheared_gap, only: turn_sheared_gap
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_origin, on_rail_profile
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
                                                  rail_state_t, rigid_creepage, rail_velocity, &
@@ -196,10 +196,9 @@ contains
         axes%centre(3) = axes%centre(3) + lowered
         rail = workspace%outline%state%rail(1)
         call place_frame(pair, rail, region, frame)
-        call sample_gap(pair, workspace%outline, region, lowered, frame, model%gap_height, &
-                        case%smoothing > 0.0_wp, workspace%gap, contact%status)
+        call find_frame_gap(pair, workspace%outline, region, lowered, frame, model%gap_height, &
+                            case%smoothing > 0.0_wp, workspace%gap, contact%status)
         if (is_error(contact%status)) return
-        call turn_sheared_gap(workspace%gap)
         associate (gap => workspace%gap, n => workspace%gap%n)
             case%penetration = gap%overlap
             if (case%smoothing > 0.0_wp) then

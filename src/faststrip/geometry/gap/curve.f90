@@ -42,8 +42,8 @@ module faststrip_geometry_gap_curve
     ! much, a hundredth of those of a patch.
     real(wp), parameter :: double_height = 1.0e-4_wp
 
-    ! Tuned [1]: how much slopes may differ from that of the chord. Origin: an arc of 6 mm does so by
-    ! 0.07 over 0.8 mm; a kink of twice as much is one of the profile.
+    ! Tuned [1]: how much slopes may differ from that of the chord. Origin: an arc of 6 mm does so
+    ! by 0.07 over 0.8 mm; a kink of twice as much is one of the profile.
     real(wp), parameter :: most_turn = 0.08_wp
 
     !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
@@ -315,8 +315,8 @@ contains
         end if
     end subroutine take_points
 
-    !> Is the curve of these slopes near to its chords everywhere? Where it is not there is a step or
-    !> a kink, of which slopes at points tell nothing.
+    !> Is the curve of these slopes near to its chords everywhere? Where it is not there is a step
+    !> or a kink, of which slopes at points tell nothing.
     pure logical function slopes_fit(y, h, slope) result(fit)
         real(wp), intent(in) :: y(:), h(:), slope(:)
 

@@ -74,7 +74,8 @@ contains
         if (allocated(outline%x)) then
             if (size(outline%x) /= n) &
                 deallocate (outline%x, outline%y, outline%z, outline%slope, outline%height, &
-                            outline%below, outline%is_there, outline%is_seen, outline%low, outline%way, &
+                            outline%below, outline%is_there, outline%is_seen, outline%low, &
+                            outline%way, &
                             outline%steep, outline%lever, outline%bend)
         end if
         if (.not. allocated(outline%x)) then
@@ -216,7 +217,8 @@ contains
         outline%way(cell) = way
         outline%steep(cell) = 0.0_wp
         if (right >= left) &
-            outline%steep(cell) = steepest_rail(pair, outline%state%rail(1), left - way, right + way)
+            outline%steep(cell) = steepest_rail(pair, outline%state%rail(1), left - way, &
+                                                right + way)
     end subroutine see_cell
 
     !> The lowest height of an outline over the rail; `huge` where they never stand one over the
