@@ -465,12 +465,17 @@ typedef struct faststrip_rail_state {
     double roll_rate; /* rad/s */
 } faststrip_rail_state;
 
+/* A pitch rate of 0: wheels that do not turn. */
+#define FASTSTRIP_LOCKED_WHEELS 1e300
+
 /* Position and velocity of a wheelset, and of the rails below it; all zero: in the middle, at rest.
  * Where nothing rolls but something slides all of the contact slides; where nothing moves there are
  * no friction forces. */
 typedef struct faststrip_wheelset_state {
     double y;          /* lateral displacement, mm */
-    double z;          /* vertical displacement of the centre, mm; where it is prescribed */
+    double z;          /* vertical displacement of the centre, down, mm; where it is prescribed. 0
+                        * where the tread lines are as high as the crowns of the rails, which is
+                        * not where the wheelset rests: FASTSTRIP_AT_REST gives that */
     double roll;       /* right wheel down, rad; where it is not free */
     double yaw;        /* nose to the right, rad */
     double speed;      /* along the track, mm/s; below 0 it rolls backwards */
@@ -478,7 +483,9 @@ typedef struct faststrip_wheelset_state {
     double z_rate;     /* mm/s */
     double roll_rate;  /* rad/s */
     double yaw_rate;   /* relative to the track, rad/s */
-    double pitch_rate; /* about the axle, negative for rolling ahead, rad/s */
+    double pitch_rate; /* about the axle, negative for rolling ahead, rad/s; 0, so left out, is pure
+                        * rolling at the mean nominal radius: for wheels that do not turn say
+                        * FASTSTRIP_LOCKED_WHEELS */
     double curvature;  /* of the track, positive to the right, 1/mm */
     faststrip_rail_state rail[2]; /* right, left */
 } faststrip_wheelset_state;
@@ -487,7 +494,9 @@ enum faststrip_demand {
     FASTSTRIP_BY_POSITION = 0, /* z and roll are those of the state */
     FASTSTRIP_BY_LOADS = 1,    /* each wheel has a vertical force, and a z of its own unless the
                                 * roll is free */
-    FASTSTRIP_BY_AXLE_LOAD = 2 /* both wheels carry the axle load together; z is found */
+    FASTSTRIP_BY_AXLE_LOAD = 2, /* both wheels carry the axle load together; z is found */
+    FASTSTRIP_AT_REST = 3      /* the same with z and roll at static equilibrium: rates and speed of
+                                * the state do not count, and there are no friction forces */
 };
 
 enum faststrip_wheels {
@@ -584,6 +593,10 @@ int faststrip_wheelset_new(const faststrip_wheelset_setup *setup,
 
 /* Free a wheelset, as faststrip_free. */
 int faststrip_wheelset_free(faststrip_wheelset **wheelset);
+
+/* Copy a wheelset with its last solution into another one that was made, for a step that may be
+ * taken back. */
+int faststrip_wheelset_copy(const faststrip_wheelset *from, faststrip_wheelset *to);
 
 /* Solve the contacts, those of the right wheel first. *n becomes their number, with 110 those that
  * capacity lacks; FASTSTRIP_MOST_CONTACTS are enough. A limitation of any contact is the status. A

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Dict, Optional, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import above_zero, flag, number, numbers, several, whole
+from ._arguments import above_zero, flag, number, numbers, refused, several, whole
 from ._catalogue import Row, members
 from ._contact import (
     MOST_STRIPS,
@@ -48,7 +48,10 @@ AXES = {"place": "xyz", "rail": "yz", "wheel": "xyz", "force": "xyz", "force_whe
         "moment": "xyz"}
 MOST_CONTACTS = 16
 STEEL = Material()
-BY_POSITION, BY_LOADS, BY_AXLE_LOAD = 0, 1, 2
+BY_POSITION, BY_LOADS, BY_AXLE_LOAD, AT_REST = 0, 1, 2, 3
+
+# FASTSTRIP_LOCKED_WHEELS of the header.
+LOCKED_WHEELS = 1e300
 
 
 class Setup(ctypes.Structure):
@@ -216,6 +219,11 @@ def _contact_of(row: Row) -> WheelContact:
     return WheelContact(*figures)
 
 
+def pitch_rate_number(rate: Optional[float]) -> float:
+    """What the header's state has for a pitch rate: 0 for one that is not given."""
+    return 0.0 if rate is None else number("pitch_rate", rate) or LOCKED_WHEELS
+
+
 def setup_of(wheel: Any, rail: Any, wheel_left: Any, rail_left: Any, radius: Any, radius_left: Any,
              back_spacing: Any, tread_line: Any, gauge: Any, gauge_depth: Any, rail_distance: Any,
              inclination: Any, cant: Any) -> Tuple[Setup, Any, Any]:
@@ -381,10 +389,11 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
 
     def solve(self, *, y: float = 0.0, z: Optional[float] = None, roll: Optional[float] = None,
               yaw: float = 0.0, speed: float = 0.0, y_rate: float = 0.0, z_rate: float = 0.0,
-              roll_rate: float = 0.0, yaw_rate: float = 0.0, pitch_rate: float = 0.0,
+              roll_rate: float = 0.0, yaw_rate: float = 0.0,
+              pitch_rate: Optional[float] = None,
               curvature: float = 0.0, load: Union[None, float, Tuple[float, float]] = None,
               axle_load: Optional[float] = None, roll_moment: float = 0.0, wheels: str = "both",
-              warm_start: bool = False, right_rail: RailState = IN_PLACE,
+              at_rest: bool = False, warm_start: bool = False, right_rail: RailState = IN_PLACE,
               left_rail: RailState = IN_PLACE) -> WheelsetResult:
         """Solve for a position z, a load of each wheel or an axle_load: one of the three.
 
@@ -394,7 +403,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
             To the right, mm.
         z : float
             Height of the wheelset's centre, down, mm; 0 where the tread lines are as high as the
-            crowns.
+            crowns, which is not where it rests: ``at_rest`` gives that.
         roll : float
             Right wheel down, rad. Not given it is found, of both wheels and their loads; else it
             is 0.
@@ -405,7 +414,8 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         y_rate, z_rate : float
             mm/s.
         roll_rate, yaw_rate, pitch_rate : float
-            rad/s; pitch_rate is negative for rolling ahead.
+            rad/s; pitch_rate is negative for rolling ahead, not given it is that of pure rolling
+            at the mean nominal radius, 0 is that of locked wheels.
         curvature : float
             Of the track, positive to the right, 1/mm.
         load : float, or two floats
@@ -416,6 +426,9 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
             What the frame exerts about the wheelset's centre, N mm.
         wheels : str
             ``both``, ``right`` or ``left``.
+        at_rest : bool
+            With an axle_load: static equilibrium, z and roll are found. Speed and rates do not
+            count, and there are no friction forces.
         warm_start : bool
             Begin with the last solution, if there is one.
         right_rail, left_rail : RailState
@@ -440,8 +453,11 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         demand = Demand(wheels=number_of(WHEELS, wheels, "wheels"),
                         warm_start=flag("warm_start", warm_start),
                         roll_moment=number("roll_moment", roll_moment))
+        if flag("at_rest", at_rest) and (axle_load is None or roll is not None):
+            raise bad_argument("at_rest is for an axle_load, with a roll that is found")
         if axle_load is not None:
-            demand.kind, demand.axle_load = BY_AXLE_LOAD, number("axle_load", axle_load)
+            demand.kind = AT_REST if at_rest else BY_AXLE_LOAD
+            demand.axle_load = number("axle_load", axle_load)
         elif load is not None:
             loads = (load, load) if np.ndim(load) == 0 else several("load", load,
                                                                     "right and left", (2,))
@@ -449,7 +465,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
             demand.load_right, demand.load_left = numbers(("load[0]", "load[1]"), loads)
         demand.roll_is_free = roll is None and z is None and demand.wheels == 0
         given = (y, z or 0.0, roll or 0.0, yaw, speed, y_rate, z_rate, roll_rate, yaw_rate,
-                 pitch_rate, curvature)
+                 pitch_rate_number(pitch_rate), curvature)
         state = State(*numbers([field[0] for field in State._fields_[:len(given)]], given),
                       rail_of("right_rail", right_rail), rail_of("left_rail", left_rail))
         rows, totals, n = (Row * MOST_CONTACTS)(), Totals(), c_int()
@@ -559,6 +575,23 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         (y, h, inv2r, inclination), _ = grown(4, lambda *room: self._call(
             library.faststrip_wheelset_get_gap, _counted(contact), *room))
         return y, h, inv2r, inclination
+
+    def copy_from(self, other: "Wheelset") -> None:
+        """Become another wheelset with its last solution, for a step taken back.
+
+        Parameters
+        ----------
+        other : Wheelset
+            It stays as it is.
+        """
+        if not isinstance(other, Wheelset):
+            raise refused("other", "a Wheelset", other)
+        if other is self:
+            return
+        if self._handle is None:
+            raise bad_argument("the wheelset is closed")
+        other._call(library.faststrip_wheelset_copy, self._handle.handle)
+        self._n_contacts = other._n_contacts
 
     def _call(self, function: Any, *arguments: Any) -> int:
         handle = self._handle

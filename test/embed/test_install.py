@@ -14,11 +14,11 @@ from installed import ROOT, HostTest
 FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
 NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadmath", "libc",
           "ld-linux-x86-64"}
-F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt fserrs"
-                " fsferr fslset fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast fsints"
-                " fswdft fswnew fsrail fswslv fswset fswstr fswelm fswstw fswfre fsfric fswear"
-                " fsstwr fscfun fsconi fslopn fslfre fslinf fslook fslwin fslcon fslwhl fsrdpr"
-                " fsdoub".split())
+F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt"
+                " fserrs fsferr fslset fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast"
+                " fsints fswdft fswnew fsrail fswslv fswset fswstr fswelm fswstw fswcpy fswfre"
+                " fsfric fswear fsstwr fscfun fsconi fslopn fslfre fslinf fslook fslwin fslcon"
+                " fslwhl fsrdpr fsdoub".split())
 
 CORE = ROOT / "src" / "faststrip"
 

@@ -4,7 +4,7 @@ import csv
 import ctypes
 import math
 
-from installed import HOSTS, HostTest, bits
+from installed import HOSTS, ROOT, HostTest, bits
 
 
 class Interfaces(HostTest):
@@ -101,6 +101,65 @@ class Interfaces(HostTest):
                                  ("Fy_track_N", one.force[1])):
                 self.assertEqual(float(row[name]), number, (one.side, name))
         self.assertNotEqual(result.roll, wheelset.solve(**state).roll)
+
+    def test_a_pitch_rate_left_out_is_pure_rolling(self):
+        package = self.import_package()
+        state = {"y": 1.0, "speed": 2e4, "axle_load": 1.2e5}
+        wheelset = package.Wheelset()
+        left_out = wheelset.solve(**state)
+        said = wheelset.solve(pitch_rate=-2e4 / 460.0, **state)
+        self.assertEqual(left_out.force.tolist(), said.force.tolist())
+        self.assertLess(abs(left_out.force[0, 0]), 0.1 * said.force[0, 2])
+        locked = wheelset.solve(pitch_rate=0.0, **state)
+        self.assertGreater(abs(locked.force[0, 0]), 0.25 * said.force[0, 2])
+
+    def test_at_rest_is_static_equilibrium(self):
+        package = self.import_package()
+        wheelset = package.Wheelset()
+        rest = wheelset.solve(y=1.0, speed=2e4, yaw_rate=0.1, axle_load=1.2e5, at_rest=True)
+        still = wheelset.solve(y=1.0, axle_load=1.2e5)
+        self.assertEqual((rest.z, rest.roll), (still.z, still.roll))
+        self.assertEqual([one.fx for one in rest.contacts], [0.0] * len(rest.contacts))
+        self.assertAlmostEqual(rest.force[0, 2] + rest.force[1, 2], 1.2e5, delta=1e-2)
+        there = wheelset.solve(y=1.0, z=rest.z[0], roll=rest.roll)
+        self.assertAlmostEqual(there.force[0, 2], rest.force[0, 2], delta=0.1)
+        for wrong in ({"load": 6e4}, {"axle_load": 1.2e5, "roll": 0.0}):
+            with self.assertRaisesRegex(package.FaststripError, "at_rest is for an axle_load"):
+                wheelset.solve(at_rest=True, **wrong)
+
+    def test_a_step_is_taken_back_to_the_last_bit(self):
+        package = self.import_package()
+        step = {"yaw": 2e-3, "speed": 2e4, "z": 0.15, "roll": 0.0, "warm_start": True}
+        with package.Wheelset() as wheelset, package.Wheelset(mu=0.1) as kept:
+            wheelset.solve(y=1.0, **step)
+            kept.copy_from(wheelset)
+            first = wheelset.solve(y=1.01, **step)
+            wheelset.solve(y=1.4, **step)
+            wheelset.copy_from(kept)
+            again = wheelset.solve(y=1.01, **step)
+            self.assertEqual(first.force.tolist(), again.force.tolist())
+            self.assertEqual(first.contacts, again.contacts)
+            wheelset.copy_from(wheelset)
+            with self.assertRaisesRegex(package.FaststripError, "other must be a Wheelset"):
+                wheelset.copy_from(1.0)
+        with self.assertRaisesRegex(package.FaststripError, "the wheelset is closed"):
+            kept.copy_from(package.Wheelset())
+
+    def test_a_yawed_flange_is_near_the_exact_gap(self):
+        package = self.import_package()
+        text = (ROOT / "reference" / "wheelset" / "yawed_flanges.csv").read_text(encoding="utf-8")
+        for row in csv.DictReader(line for line in text.splitlines() if line[0] != "#"):
+            wheelset = package.Wheelset(rail=row["rail"], inclination=0.025, tangential="none")
+            found = wheelset.solve(y=float(row["y_mm"]), z=float(row["z_mm"]),
+                                   roll=float(row["roll_rad"]), yaw=float(row["yaw_rad"]),
+                                   wheels="right").contacts[0]
+            self.assertAlmostEqual(found.angle, float(row["angle_rad"]), delta=1e-5)
+            self.assertAlmostEqual(found.penetration / float(row["penetration_mm"]), 1.0,
+                                   delta=2e-5)
+            self.assertAlmostEqual(found.load / float(row["N_N"]), 1.0, delta=4e-3)
+            # A joint of flank and root crosses the strips of the second.
+            self.assertAlmostEqual(found.pmax / float(row["pmax_MPa"]), 1.0,
+                                   delta=0.04 if row["case"] == "shared_2" else 0.01)
 
     def test_a_setup_of_another_header_is_refused(self):
         package = self.import_package()

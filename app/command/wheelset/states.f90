@@ -133,8 +133,7 @@ contains
         do i = side_right, side_left
             state%rail(i) = rail(at_rail(i))
         end do
-        state%pitch_rate = number(at_pitch)
-        if (.not. given%is_given(at_pitch)) state%pitch_rate = -state%speed/model%radius
+        if (given%is_given(at_pitch)) state%pitch_rate = number(at_pitch)
         demand%roll_is_free = .not. given%is_given(at_roll)
         if (given%is_given(at_z)) then
             demand%kind = demand_position

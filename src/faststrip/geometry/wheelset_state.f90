@@ -17,13 +17,17 @@ module faststrip_geometry_wheelset_state
     implicit none
     private
 
-    public :: wheelset_state_t, wheelset_axes_t, rail_state_t
-    public :: mirrored_state, reversed_state, is_at_rest, check_state, wheelset_axes, &
-              rigid_creepage, rail_velocity, cross
+    public :: wheelset_state_t, wheelset_axes_t, rail_state_t, pure_rolling
+    public :: mirrored_state, reversed_state, rolling_state, resting_state, is_at_rest, &
+              check_state, wheelset_axes, rigid_creepage, rail_velocity, cross
 
     ! Roll, yaw and contact angles beyond are refused, rad: lines of a wheel that is turned farther
     ! have no meaning.
     real(wp), parameter :: largest_turn = quantities(of_turn)%possible
+
+    !> A pitch rate that is not said: that of pure rolling at the mean nominal radius.
+    !> Given: out of range of all rates.
+    real(wp), parameter :: pure_rolling = -huge(1.0_wp)
 
     !> How a rail lies and moves beside its place in the design, in the track frame; it is turned
     !> about the origin of its profile.
@@ -47,7 +51,7 @@ module faststrip_geometry_wheelset_state
         real(wp) :: z_rate = 0.0_wp     !! mm/s
         real(wp) :: roll_rate = 0.0_wp  !! about the wheelset's x axis, rad/s
         real(wp) :: yaw_rate = 0.0_wp   !! relative to the track, about the wheelset's z axis, rad/s
-        real(wp) :: pitch_rate = 0.0_wp !! about the axle, negative for rolling ahead, rad/s
+        real(wp) :: pitch_rate = pure_rolling !! about the axle, negative for rolling ahead, rad/s
         real(wp) :: curvature = 0.0_wp  !! of the track, positive to the right, 1/mm
         type(rail_state_t) :: rail(2)   !! right, left
     end type wheelset_state_t
@@ -89,10 +93,30 @@ contains
         reversed%pitch_rate = -state%pitch_rate
     end function reversed_state
 
+    !> The state with the pitch rate of pure rolling where none was said.
+    elemental type(wheelset_state_t) function rolling_state(state, radius) result(rolling)
+        type(wheelset_state_t), intent(in) :: state !! mm, rad, s
+        real(wp), intent(in) :: radius              !! mean of the nominal radii, mm
+
+        rolling = state
+        if (state%pitch_rate == pure_rolling) rolling%pitch_rate = -state%speed/radius
+    end function rolling_state
+
+    !> Where the wheelset and its rails are, at rest.
+    elemental type(wheelset_state_t) function resting_state(state) result(resting)
+        type(wheelset_state_t), intent(in) :: state !! mm, rad
+
+        resting = wheelset_state_t(y=state%y, z=state%z, roll=state%roll, yaw=state%yaw, &
+                                   pitch_rate=0.0_wp, curvature=state%curvature)
+        resting%rail%y = state%rail%y
+        resting%rail%z = state%rail%z
+        resting%rail%roll = state%rail%roll
+    end function resting_state
+
     !> Does neither the wheelset move nor a rail? Then there is no slip, and by theories of rolling
     !> no friction.
     pure logical function is_at_rest(state)
-        type(wheelset_state_t), intent(in) :: state !! mm, rad, s
+        type(wheelset_state_t), intent(in) :: state !! mm, rad, s; its pitch rate is said
 
         associate (rail => state%rail)
             is_at_rest = .not. any(abs([state%speed, state%y_rate, state%z_rate, &
@@ -189,7 +213,7 @@ contains
     !> and only the proportions of the velocities count. So the speed is at least a millionth of
     !> what slides: creepages times the speed are always the velocities.
     pure subroutine rigid_creepage(state, axes, point, angle, creepage, speed, moving)
-        type(wheelset_state_t), intent(in) :: state  !! mm, rad, s
+        type(wheelset_state_t), intent(in) :: state  !! mm, rad, s; its pitch rate is said
         type(wheelset_axes_t), intent(in) :: axes    !! of the state
         real(wp), intent(in) :: point(3)             !! of the wheel, in the track, mm
         real(wp), intent(in) :: angle                !! contact angle, rad

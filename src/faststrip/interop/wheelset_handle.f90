@@ -3,7 +3,8 @@ module faststrip_interop_wheelset_handle
     use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_ptr, c_f_pointer
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_bad_argument, st_workspace_too_small, st_ok
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t
+    use faststrip_base_kinds, only: wp
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t, pure_rolling
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
     use faststrip_interop_solution, only: mirror_t
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
@@ -20,6 +21,10 @@ module faststrip_interop_wheelset_handle
     public :: wheelset_handle_t
     public :: allocate_wheelset, free_wheelset, find_wheelset, take_wheels, wheelset_solve
     public :: contact_count, contact_place, find_contact, contact_mirror
+    public :: copy_wheelset, pitch_rate_of
+
+    ! Given: `FASTSTRIP_LOCKED_WHEELS`, what stands for a pitch rate of 0.
+    real(wp), parameter :: locked_wheels = 1.0e300_wp
 
     !> One caller's wheelset.
     type :: wheelset_handle_t
@@ -91,6 +96,29 @@ contains
         call set_status(handle%status, st_bad_argument, 'the wheels must be 0, both, 1, right, ' &
                         // 'or 2, left, got ' // count_text(number))
     end subroutine take_wheels
+
+    !> Copy a wheelset with its last solution into another, for a step that may be taken back.
+    subroutine copy_wheelset(from, to)
+        type(wheelset_handle_t), intent(in) :: from  !! stays as it is
+        type(wheelset_handle_t), intent(inout) :: to !! becomes equal
+
+        to%model = from%model
+        to%workspace = from%workspace
+        to%result = from%result
+        to%has = from%has
+        to%rail = from%rail
+        to%doubts = from%doubts
+        call clear_status(to%status)
+    end subroutine copy_wheelset
+
+    !> The pitch rate of a number in C and F77, where 0 is what nobody has said.
+    elemental real(wp) function pitch_rate_of(number) result(rate)
+        real(wp), intent(in) :: number !! rad/s; 0: pure rolling, `locked_wheels` or more: 0
+
+        rate = number
+        if (.not. abs(number) > 0.0_wp) rate = pure_rolling
+        if (number >= locked_wheels) rate = 0.0_wp
+    end function pitch_rate_of
 
     !> Solve the contacts of a wheelset; its result has them, unless they are more than fit.
     subroutine wheelset_solve(handle, state, demand, warm_start, capacity, n)

@@ -74,17 +74,19 @@ contains
     end function usual_approach
 
     !> Start a search.
-    pure subroutine start_search(search, load, approach, tolerance, bracket)
+    pure subroutine start_search(search, load, approach, tolerance, bracket, slope)
         type(approach_search_t), intent(out) :: search !! to be continued by `take_force`
         real(wp), intent(in) :: load                   !! > 0, N
         real(wp), intent(in) :: approach               !! a first guess, > 0, mm
         real(wp), intent(in), optional :: tolerance    !! misfit of the load that is near enough
         real(wp), intent(in), optional :: bracket      !! the same of the bracket, of its upper end
+        real(wp), intent(in), optional :: slope        !! of an earlier search, 0: none, 1/mm
 
         search%load = load
         search%approach = approach
         if (present(tolerance)) search%tolerance = tolerance
         if (present(bracket)) search%bracket = bracket
+        if (present(slope)) search%slope = slope
     end subroutine start_search
 
     !> Tell the force at `search%approach`: the next approach is there, or the search has ended.
@@ -118,7 +120,9 @@ contains
         end if
         root = sign((abs(force)/search%load)**(1.0_wp/hertz_power), force)
         change = root - search%root_before
-        if (abs(change) > telling) search%slope = change/(search%approach - search%before)
+        ! The first secant is that through first touch.
+        if (abs(change) > telling .and. (search%steps > 1 .or. .not. search%slope > 0.0_wp)) &
+            search%slope = change/(search%approach - search%before)
         search%before = search%approach
         search%root_before = root
         next = most_growth*search%approach

@@ -120,10 +120,11 @@ contains
         scale = demand%axle_load*[1.0_wp, model%pair(side_right)%y_line]
         call misfit(left)
         if (is_error(status)) return
-        call first_jacobian()
+        jacobian = workspace%stiffness
+        if (.not. jacobian(1, 1) > 0.0_wp) call first_jacobian()
         is_measured = .false.
         do i = 1, steps
-            if (all(abs(left) <= equilibrium*scale)) exit
+            if (all(abs(left) <= merge(near_enough, equilibrium, workspace%has_last)*scale)) exit
             step = newton_step()
             part = min(1.0_wp, most_roll_step/max(abs(step(2)), tiny(1.0_wp)))
             before = left
@@ -175,6 +176,7 @@ contains
         end do
         if (is_error(status)) return
         still_missing = missing(left)
+        workspace%stiffness = jacobian
         do i = side_right, side_left
             workspace%wheel(i)%approach = state%z - touch(i)
         end do

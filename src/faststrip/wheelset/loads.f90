@@ -7,7 +7,8 @@ module faststrip_wheelset_loads
                                      st_no_convergence, st_target_missed
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
-                                           is_found, is_near, usual_approach, equilibrium
+                                           is_found, is_near, usual_approach, equilibrium, &
+                                           near_enough
     use faststrip_wheelset_height, only: set_outline, try_height
     use faststrip_wheelset_roll, only: roll_search_t, next_roll
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
@@ -33,6 +34,8 @@ contains
         workspace%has_last = .false.
         workspace%wheel%n = 0
         workspace%wheel%approach = 0.0_wp
+        workspace%wheel%slope = 0.0_wp
+        workspace%stiffness = 0.0_wp
     end subroutine start_afresh
 
     !> Each wheel with a height of its own.
@@ -81,8 +84,9 @@ contains
         is_warm = workspace%has_last .and. workspace%wheel(side)%approach > 0.0_wp
         do
             if (is_warm) then
-                call start_search(search, load, workspace%wheel(side)%approach, demand%tolerance, &
-                                  demand%bracket)
+                call start_search(search, load, workspace%wheel(side)%approach, &
+                                  max(demand%tolerance, near_enough), demand%bracket, &
+                                  workspace%wheel(side)%slope)
             else
                 workspace%wheel(side)%n = 0
                 call start_search(search, load, usual_approach(load), demand%tolerance, &
@@ -106,6 +110,7 @@ contains
         if (search%approach /= search%best) &
             call try_height(model, workspace, state, side, touch + search%best, wheel)
         workspace%wheel(side)%approach = search%best
+        workspace%wheel(side)%slope = search%slope
         wheel%z = touch + search%best
     end subroutine solve_load
 
@@ -117,6 +122,7 @@ contains
 
         workspace%n = 0
         workspace%approach = 0.0_wp
+        workspace%slope = 0.0_wp
         call clear_status(wheel%status)
         wheel%n = 0
         wheel%force = 0.0_wp

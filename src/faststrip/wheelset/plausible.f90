@@ -5,7 +5,7 @@ module faststrip_wheelset_plausible
     use faststrip_base_plausible, only: quantities, of_load, of_turn, of_speed, of_pitch, &
                                         of_shift, of_curve
     use faststrip_contact_plausible, only: doubts_t, add_doubt
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, pure_rolling
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, demand_loads, &
                                         demand_axle_load
     implicit none
@@ -41,13 +41,14 @@ contains
         call add_doubt(doubts, of_turn, names%yaw, state%yaw)
         call add_doubt(doubts, of_speed, names%speed, state%speed)
         ! Where a vehicle starts or stops wheels spin or stand.
-        if (abs(state%speed) >= quantities(of_speed)%least .and. model%radius > 0.0_wp) &
+        if (abs(state%speed) >= quantities(of_speed)%least .and. model%radius > 0.0_wp &
+            .and. state%pitch_rate /= pure_rolling) &
             call add_doubt(doubts, of_pitch, names%pitch_rate, &
                            state%pitch_rate*model%radius/state%speed, &
                            behind=' times the radius over the speed')
         if (abs(state%curvature) > 0.0_wp) &
             call add_doubt(doubts, of_curve, names%curve, 1.0_wp/state%curvature)
-        if (demand%kind == demand_axle_load) then
+        if (demand%kind >= demand_axle_load) then
             if (demand%axle_load > 0.0_wp) &
                 call add_doubt(doubts, of_load, names%load, demand%axle_load, model%radius)
         else if (demand%kind == demand_loads) then

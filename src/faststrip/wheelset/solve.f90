@@ -19,7 +19,8 @@ module faststrip_wheelset_solve
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail
     use faststrip_geometry_wheel_outline, only: reserve_outline
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state, reversed_state
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state, reversed_state, &
+                                                 rolling_state, resting_state
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, usual_approach, most_tries
     use faststrip_wheelset_balance, only: solve_for_balance
@@ -29,7 +30,7 @@ module faststrip_wheelset_solve
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &
-                                        demand_axle_load, most_contacts
+                                        demand_axle_load, demand_rest, most_contacts
     use faststrip_wheelset_wheel, only: estimate_wheel, name_pressures, mirror_wheel, reverse_wheel
     implicit none
     private
@@ -123,6 +124,8 @@ contains
             !! those of contacts; `st_target_missed`: the force jumps over the load
 
         type(environment_t) :: environment
+        type(wheelset_state_t) :: moving
+        type(wheelset_demand_t) :: prescribed
         integer :: side
 
         result%wheel%n = 0
@@ -132,15 +135,22 @@ contains
         call check_workspace(model, workspace, status)
         if (is_error(status)) return
         call hold_environment(environment)
-        workspace%is_reversed = state%speed < state%pitch_rate*model%radius
+        moving = rolling_state(state, model%radius)
+        prescribed = demand
+        if (demand%kind == demand_rest) then
+            moving = resting_state(state)
+            prescribed%kind = demand_axle_load
+            prescribed%roll_is_free = .true.
+        end if
+        workspace%is_reversed = moving%speed < moving%pitch_rate*model%radius
         if (workspace%is_reversed) then
-            call solve_checked(model, workspace, reversed_state(state), demand, result, status)
+            call solve_checked(model, workspace, reversed_state(moving), prescribed, result, status)
             do side = side_right, side_left
                 if (demand%wants(side)) call reverse_wheel(result%wheel(side))
             end do
             workspace%last_state = reversed_state(workspace%last_state)
         else
-            call solve_checked(model, workspace, state, demand, result, status)
+            call solve_checked(model, workspace, moving, prescribed, result, status)
         end if
         call restore_environment(environment)
     end subroutine solve_wheelset
@@ -277,17 +287,18 @@ contains
         if (is_error(status)) return
         if (.not. any(demand%wants)) then
             call set_status(status, st_bad_argument, 'a wheel must be asked for')
-        else if (all(demand%kind /= [demand_position, demand_loads, demand_axle_load])) then
-            call set_status(status, st_bad_argument, 'the demand must be one of the three kinds')
+        else if (all(demand%kind /= [demand_position, demand_loads, demand_axle_load, &
+                                     demand_rest])) then
+            call set_status(status, st_bad_argument, 'the demand must be one of the four kinds')
         else if (demand%roll_is_free .and. (demand%kind == demand_position &
                                             .or. .not. all(demand%wants))) then
             call set_status(status, st_bad_argument, &
                             'roll is found of both wheels and their loads only')
-        else if (demand%kind == demand_axle_load .and. .not. all(demand%wants)) then
+        else if (demand%kind >= demand_axle_load .and. .not. all(demand%wants)) then
             call set_status(status, st_bad_argument, 'an axle load is that of both wheels')
         end if
         if (is_error(status)) return
-        if (demand%kind == demand_axle_load) call check_load(demand%axle_load)
+        if (demand%kind >= demand_axle_load) call check_load(demand%axle_load)
         do side = side_right, side_left
             if (demand%kind == demand_loads .and. demand%wants(side)) &
                 call check_load(demand%load(side))

@@ -16,7 +16,8 @@ module faststrip_wheelset_types
 
     public :: wheelset_model_t, wheelset_demand_t, wheel_contact_t, wheel_result_t
     public :: wheelset_result_t, wheel_workspace_t, wheelset_workspace_t
-    public :: side_right, side_left, demand_position, demand_loads, demand_axle_load, most_contacts
+    public :: side_right, side_left, demand_position, demand_loads, demand_axle_load, demand_rest
+    public :: most_contacts
 
     !> Given: places in arrays of both sides.
     integer, parameter :: side_right = 1
@@ -31,6 +32,11 @@ module faststrip_wheelset_types
     !> Both wheels carry the axle load together; z, and roll if it is free, are found.
     !> Given: a number of kinds.
     integer, parameter :: demand_axle_load = 2
+
+    !> Static equilibrium: both wheels carry the axle load, z and roll are found, nothing moves,
+    !> whatever rates the state has, so that there are no friction forces.
+    !> Given: a number of kinds.
+    integer, parameter :: demand_rest = 3
 
     ! Regions nearer than this are one contact.
     ! Tuned [mm]. Origin: as CONTACT separates patches.
@@ -118,6 +124,8 @@ module faststrip_wheelset_types
         type(workspace_t), allocatable :: contact(:)  !! one a contact
         integer :: n = 0                              !! contacts of the last solution, 0: none
         real(wp) :: approach = 0.0_wp                 !! of the last solution, from first touch, mm
+        real(wp) :: slope = 0.0_wp
+            !! of the force over the load, to the power 2/3, there; 0: not known, 1/mm
         type(region_t) :: region(most_contacts)       !! of the last solution
         logical :: is_guided = .false.
             !! is a height being looked for by strips, for another method to take?
@@ -129,5 +137,8 @@ module faststrip_wheelset_types
         type(wheelset_state_t) :: last_state  !! of the last solution, with its z and roll
         logical :: has_last = .false.         !! was there one?
         logical :: is_reversed = .false.      !! did it roll backwards?
+        real(wp) :: stiffness(2, 2) = 0.0_wp
+            !! of load and roll moment over z and roll at the last balance; 0: not known, N/mm, N,
+            !! N, N mm
     end type wheelset_workspace_t
 end module faststrip_wheelset_types

@@ -14,7 +14,8 @@ module faststrip_interop_c_wheelset
     use faststrip_interop_solution, only: strip_count
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, free_wheelset, find_wheelset, &
                                                  take_wheels, wheelset_solve, contact_place, &
-                                                 find_contact, contact_mirror
+                                                 find_contact, contact_mirror, copy_wheelset, &
+                                                 pitch_rate_of
     use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
                                               source_name_length, default_dimensions, new_wheelset
     use faststrip_wheelset_types, only: wheelset_demand_t, side_right, side_left
@@ -22,7 +23,7 @@ module faststrip_interop_c_wheelset
     private
 
     public :: faststrip_default_wheelset, faststrip_wheelset_new, faststrip_wheelset_free
-    public :: faststrip_wheelset_solve, faststrip_wheelset_last_message
+    public :: faststrip_wheelset_solve, faststrip_wheelset_copy, faststrip_wheelset_last_message
     public :: faststrip_wheelset_get_strips, faststrip_wheelset_get_elements
     public :: c_setup_t, find_setup, read_sources, read_source_at
 
@@ -148,6 +149,20 @@ contains
         if (code /= st_ok) return
         code = put_text(trim(handle%status%message), text, length)
     end function faststrip_wheelset_last_message
+
+    !> Copy a wheelset with its last solution, for a step that may be taken back.
+    integer(c_int) function faststrip_wheelset_copy(from, to) bind(c) result(code)
+        integer(c_intptr_t), value :: from !! a handle
+        integer(c_intptr_t), value :: to   !! another one
+
+        type(wheelset_handle_t), pointer :: source, target
+
+        call find_wheelset(from, source, code)
+        if (code /= st_ok) return
+        call find_wheelset(to, target, code)
+        if (code /= st_ok .or. from == to) return
+        call copy_wheelset(source, target)
+    end function faststrip_wheelset_copy
 
     !> Solve the contacts of both wheels, or of one.
     integer(c_int) function faststrip_wheelset_solve(wheelset, state, demand, capacity, n, &
@@ -275,7 +290,7 @@ contains
         state%z_rate = place%z_rate
         state%roll_rate = place%roll_rate
         state%yaw_rate = place%yaw_rate
-        state%pitch_rate = place%pitch_rate
+        state%pitch_rate = pitch_rate_of(place%pitch_rate)
         state%curvature = place%curvature
         do side = side_right, side_left
             associate (rail => place%rail(side))

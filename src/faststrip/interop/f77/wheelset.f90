@@ -19,10 +19,12 @@
 !> STATE(4) yaw, nose to the right, rad                STATE(5) speed, mm/s
 !> STATE(6), STATE(7) rates of y and z, mm/s           STATE(8), STATE(9) of roll and yaw, rad/s
 !> STATE(10) pitch rate, negative for rolling ahead    STATE(11) curvature of the track, 1/mm
+!>        0: pure rolling at the mean nominal radius; 1D300: locked wheels, 0
 !> RAIL(1), RAIL(2) y and z of the right rail beside its place, mm      RAIL(3) its roll, rad
 !> RAIL(4), RAIL(5) rates of y and z, mm/s     RAIL(6) of its roll, rad/s
 !> RAIL(7) to RAIL(12) the same of the left rail
-!> IDMND(1) prescribed are: 0 z and roll, 1 the vertical force of each wheel, 2 the axle load
+!> IDMND(1) prescribed are: 0 z and roll, 1 the vertical force of each wheel, 2 the axle load,
+!>        3 the axle load at rest: static equilibrium, with the roll found
 !> IDMND(2) wheels: 0 both, 1 right, 2 left            IDMND(3) 1: the roll is free, and found
 !> IDMND(4) 1: warm start
 !> DMND(1), DMND(2) vertical force of the right and left wheel, N      DMND(3) axle load, N
@@ -59,14 +61,15 @@ module faststrip_interop_f77_wheelset
     use faststrip_interop_solution, only: read_elements
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, free_wheelset, find_wheelset, &
                                                  take_wheels, wheelset_solve, contact_place, &
-                                                 find_contact, contact_mirror
+                                                 find_contact, contact_mirror, copy_wheelset, &
+                                                 pitch_rate_of
     use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
                                               default_dimensions, new_wheelset
     use faststrip_wheelset_types, only: wheelset_demand_t, side_right, side_left
     implicit none
     private
 
-    public :: fswdft, fswnew, fsrail, fswslv, fswset, fswstr, fswelm, fswfre
+    public :: fswdft, fswnew, fsrail, fswslv, fswset, fswstr, fswelm, fswcpy, fswfre
     public :: n_setup, read_dimensions, read_sources, find_column
 
     ! Lengths of the rows above.
@@ -236,7 +239,7 @@ contains
         type(rail_state_t), intent(in) :: rail(2)
 
         state = wheelset_state_t(row(1), row(2), row(3), row(4), row(5), row(6), row(7), row(8), &
-                                 row(9), row(10), row(11), rail)
+                                 row(9), pitch_rate_of(row(10)), row(11), rail)
     end function state_of
 
     ! One contact of the last solution.
@@ -379,6 +382,24 @@ contains
                                    area(:n), pn(:n), px(:n), py(:n), sx(:n), sy(:n), state(:n))
         end associate
     end subroutine fswelm
+
+    !> CALL FSWCPY(IFROM, ITO, INFO)
+    !>
+    !> Copy a wheelset with its last solution, and what FSRAIL set, into another one, for a step
+    !> that may be taken back.
+    subroutine fswcpy(from, to, info) bind(c, name='fswcpy_')
+        integer(c_int), intent(in) :: from(n_iwork) !! made by FSWNEW
+        integer(c_int), intent(in) :: to(n_iwork)   !! made by another call of FSWNEW
+        integer(c_int), intent(out) :: info         !! status
+
+        type(wheelset_handle_t), pointer :: source, target
+
+        call find_wheelset(number_of(from), source, info)
+        if (.not. associated(source)) return
+        call find_wheelset(number_of(to), target, info)
+        if (.not. associated(target)) return
+        if (.not. associated(source, target)) call copy_wheelset(source, target)
+    end subroutine fswcpy
 
     !> CALL FSWFRE(IWORK, INFO)
     !>
