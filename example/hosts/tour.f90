@@ -195,6 +195,11 @@ contains
         state%rail(side_left) = rail_state_t(y=0.2_wp)
         demand%load = load
         demand%axle_load = 2.0_wp*load
+        ! Where it stands before it moves.
+        demand%kind = demand_rest
+        call solve_wheelset(model, workspace, state, demand, result, status)
+        call check('state at rest')
+        state%z = result%wheel(side_right)%z
         do i = 1, 3
             demand%kind = kinds(i)
             demand%roll_is_free = kinds(i) /= demand_position

@@ -153,7 +153,7 @@ class Interfaces(HostTest):
             found = wheelset.solve(y=float(row["y_mm"]), z=float(row["z_mm"]),
                                    roll=float(row["roll_rad"]), yaw=float(row["yaw_rad"]),
                                    wheels="right").contacts[0]
-            self.assertAlmostEqual(found.angle, float(row["angle_rad"]), delta=1e-5)
+            self.assertAlmostEqual(found.contact_angle, float(row["angle_rad"]), delta=1e-5)
             self.assertAlmostEqual(found.penetration / float(row["penetration_mm"]), 1.0,
                                    delta=2e-5)
             self.assertAlmostEqual(found.load / float(row["N_N"]), 1.0, delta=4e-3)

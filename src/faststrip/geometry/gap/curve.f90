@@ -286,11 +286,7 @@ contains
         has_slopes = present(slope)
         if (has_slopes) has_slopes = slopes_fit(y, h, slope)
         if (has_slopes) then
-            if (side < 0) then
-                call set_slopes(curve, -slope(n:1:-1))
-            else
-                call set_slopes(curve, slope)
-            end if
+            call set_slopes(curve, slope, side < 0)
         else
             call join_doubles(curve, n)
             call torn_spline_setup(curve%y(:n), curve%h(:n), curve%slope_from(:n), &
@@ -331,14 +327,23 @@ contains
         fit = worst <= most_turn
     end function slopes_fit
 
-    !> The curve through the points with these slopes.
-    pure subroutine set_slopes(curve, slope)
+    !> The curve through the points with these slopes, or with those of the mirror image.
+    pure subroutine set_slopes(curve, slope, is_mirrored)
         type(gap_curve_t), intent(inout) :: curve ! its points are set
         real(wp), intent(in) :: slope(:)
+        logical, intent(in) :: is_mirrored
+
+        integer :: i
 
         associate (n => size(slope))
-            curve%slope_from(:n) = slope
-            curve%slope_to(:n - 1) = slope(2:)
+            do i = 1, n
+                if (is_mirrored) then
+                    curve%slope_from(i) = -slope(n + 1 - i)
+                else
+                    curve%slope_from(i) = slope(i)
+                end if
+            end do
+            curve%slope_to(:n - 1) = curve%slope_from(2:n)
             ! Nothing swings.
             curve%bend(:n) = huge(1.0_wp)
             curve%is_step(:n) = .false.
