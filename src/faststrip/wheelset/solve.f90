@@ -167,7 +167,8 @@ contains
         do side = side_right, side_left
             associate (wheel => workspace%wheel(side), pair => model%pair(side))
                 fits = allocated(wheel%outline%x) .and. allocated(pair%y)
-                if (fits) fits = size(wheel%outline%x) == size(pair%y)
+                if (fits) fits = size(wheel%outline%x) == size(pair%y) &
+                                 .and. wheel%outline%mark == pair%mark
             end associate
             if (.not. fits) &
                 call set_status(status, st_workspace_too_small, &

@@ -62,6 +62,8 @@ module faststrip_geometry_wheel_on_rail
         real(wp), allocatable :: steep(:)  !! largest slope in each `steep_samples` of them, and to
                                            !! the next
         real(wp) :: depth = 0.0_wp         !! largest z of the samples from the rail's origin, mm
+        real(wp) :: mark = 0.0_wp          !! a sum of all that makes the pair, which tells it from
+                                           !! others, mm
     end type wheel_on_rail_t
 
 contains
@@ -104,6 +106,9 @@ contains
         pair%z_rail = -pair%z_rail
         call sample_wheel(pair)
         call sample_rail(pair)
+        ! Twice the one and thrice the other: what moves between them shows.
+        pair%mark = sum(pair%z) + 2.0_wp*(sum(pair%sample) + pair%y_rail) &
+                    + 3.0_wp*(pair%y_line + pair%radius)
     end subroutine make_wheel_on_rail
 
     ! Points of the wheel at equal distances along its profile.

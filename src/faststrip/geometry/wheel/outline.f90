@@ -43,6 +43,7 @@ module faststrip_geometry_wheel_outline
         type(wheelset_state_t) :: state     !! of it, as of a right wheel, at z = 0
         type(wheelset_axes_t) :: axes       !! of the state
         logical :: has_state = .false.      !! is there one?
+        real(wp) :: mark = 0.0_wp           !! of the pair it was reserved for, mm
         real(wp), allocatable :: x(:)       !! in the track, mm
         real(wp), allocatable :: y(:)       !! the same, mm
         real(wp), allocatable :: z(:)       !! the same, at z = 0, mm
@@ -71,6 +72,7 @@ contains
         n = size(pair%y)
         cells = cell_of(n)
         outline%has_state = .false.
+        outline%mark = pair%mark
         if (allocated(outline%x)) then
             if (size(outline%x) /= n) &
                 deallocate (outline%x, outline%y, outline%z, outline%slope, outline%height, &
