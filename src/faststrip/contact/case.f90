@@ -47,6 +47,8 @@ module faststrip_contact_case
         real(wp) :: yield = 0.0_wp
             !! `st_beyond_yield` names a maximum pressure above this, MPa; 0: no limit
         logical :: warm_start = .false.    !! from the workspace's last solution, if it has one
+        logical :: stays = .false.
+            !! is it a neighbour of that solution, for derivatives, with its patches and strips?
         real(wp) :: strip_tolerance = usual_strip_tolerance
             !! relative size of the strips' last step
         logical :: estimate = .true.       !! are errors estimated? Of strips it costs about a step

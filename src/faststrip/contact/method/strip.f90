@@ -62,6 +62,7 @@ contains
         options%strips_per_patch = case%methods%strips_per_patch
         options%tolerance = case%strip_tolerance
         options%warm_start = case%warm_start
+        options%stays = case%stays
         options%resolution_limit = case%resolution_limit
         call strip_solve_demand(workspace%solver, normal_compliance(case%material), case%demand_t, &
                                 options, workspace%strips, normal, status)

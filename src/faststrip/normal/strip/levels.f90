@@ -65,6 +65,8 @@ module faststrip_normal_strip_levels
             !! strips across the largest patch, or `strips_auto`
         real(wp) :: tolerance = usual_strip_tolerance !! relative size of Newton's last step
         logical :: warm_start = .false.   !! from the last solution of this workspace, if any
+        logical :: stays = .false.
+            !! is this a neighbour of the last solution, with its patches and strips?
         real(wp) :: resolution_limit = default_resolution
             !! `strips_auto` goes on until no estimated error is above this
     end type strip_options_t

@@ -19,7 +19,8 @@ module faststrip_normal_strip
     use faststrip_base_status, only: status_t, set_status, is_error, add_limitation, number_text, &
                                      count_text, add_words, message_length, st_bad_argument, &
                                      st_bad_load, st_not_finite, st_no_contact, st_fewer_strips, &
-                                     st_overlap_left, st_more_strips, st_workspace_too_small
+                                     st_overlap_left, st_more_strips, st_workspace_too_small, &
+                                     st_no_convergence
     use faststrip_base_material, only: check_compliance
     use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors
     use faststrip_normal_cells_lattice, only: lattice_errors, lattice_errors_t
@@ -28,6 +29,7 @@ module faststrip_normal_strip
                                             name_limitations, name_steps
     use faststrip_normal_strips, only: contact_strips_t, mirror_strips
     use faststrip_normal_strip_ends, only: overlap_left
+    use faststrip_normal_strip_near, only: solve_near
     use faststrip_normal_strip_levels, only: strip_options_t, strips_auto, strips_auto_most, &
                                              solve_by_levels
     use faststrip_normal_strip_patches, only: fewest_strips
@@ -62,6 +64,8 @@ contains
     !> `st_edge_of_data`, the contact runs to the end of the gap's points; `st_flat_along_x` and
     !> `st_conformal`: see `faststrip_normal_limitations`;
     !> `st_fewer_strips`, the solution has fewer strips than asked, because more did not converge.
+    !> A neighbour of the last solution has no limitation of its own; `st_no_convergence`: there is
+    !> none with its patches and strips.
     subroutine strip_solve(workspace, compliance, load, options, strips, result, status)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
         real(wp), intent(in) :: compliance         !! H of eq. (4), 1/MPa
@@ -148,10 +152,10 @@ contains
         character(len=message_length) :: words
         real(wp) :: penetration ! above the lowest height
         integer :: n_settled    ! strips per patch that settled, 0: the lattice's answer
-        logical :: all_settled, mirrored
+        logical :: all_settled, mirrored, found
 
         mirrored = workspace%curve%is_image
-        if (options%warm_start .and. workspace%old%n > 0) then
+        if ((options%warm_start .or. options%stays) .and. workspace%old%n > 0) then
             ! A history goes on as it began: its mirror image does so the other way round. Where it
             ! began with a gap that has no sides this one decides.
             if (.not. workspace%old_is_even) mirrored = workspace%old_is_mirrored
@@ -167,14 +171,21 @@ contains
             call take_image(workspace, status)
             if (is_error(status)) return
         end if
-        call solve_by_levels(workspace, compliance, demand, options, strips, result, n_settled, &
-                             all_settled, status)
+        if (options%stays) then
+            call solve_near(workspace, compliance, demand, options%tolerance, strips, result, found)
+            if (.not. found) call set_status(status, st_no_convergence, &
+                                             'there is no neighbour of the last solution that ' // &
+                                             'has its patches and strips')
+        else
+            call solve_by_levels(workspace, compliance, demand, options, strips, result, &
+                                 n_settled, all_settled, status)
+        end if
         if (mirrored) then
             call swap_gap_curves(workspace%curve, workspace%image)
             call mirror_strips(strips)
             if (.not. is_error(status)) call mirror_ends(result)
         end if
-        if (is_error(status)) return
+        if (is_error(status) .or. options%stays) return
         penetration = result%penetration - workspace%curve%h_lowest
         if (n_settled > 0) then
             if (overlap_left(workspace%curve, compliance, penetration/result%correction, strips) &
