@@ -293,9 +293,11 @@ contains
                 if (.not. is_there) exit
                 change = (y - rail%y - pair%y_rail - along*c + z*s)/advance
                 is_there = abs(change) <= near_point
-                if (is_there) exit
                 along = along + change
+                if (is_there) exit
             end do
+            ! What is left of the way counts to first order: it is rounding then.
+            if (is_there) z = z + slope*change
             z = pair%z_rail + rail%z + along*s + z*c
             slope = tan(atan(slope) + rail%roll)
         end associate
