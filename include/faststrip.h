@@ -289,6 +289,12 @@ int faststrip_get_elements(faststrip_workspace *workspace, int capacity, int *n,
                            double *y, double *area, double *pn, double *px, double *py,
                            double *sx, double *sy, int *state);
 
+/* Derivatives at the last contact: derivatives[i][j] is that of load, Fx, Fy (N), Mz (N mm) over
+ * penetration (mm), cksi, ceta (-), cphi (rad/mm), with the strips that were solved. Forces have
+ * kinks where an element begins to slide: one side of it is given. 100: by auto, a reference or
+ * with no contact solved; 108: patches or strips come or go there. */
+int faststrip_get_derivatives(faststrip_workspace *workspace, double derivatives[4][4]);
+
 /* The steps of the last contact, if by FASTSTRIP_NORMAL_AUTO: methods, strips across the widest
  * patch, points along a strip, estimated error of the target (-1: not known), time in us of the
  * pressures and of the forces with their estimates. */
@@ -605,6 +611,15 @@ int faststrip_wheelset_solve(faststrip_wheelset *wheelset, const faststrip_wheel
                              const faststrip_wheelset_demand *demand, int capacity, int *n,
                              faststrip_wheelset_contact *contacts,
                              faststrip_wheelset_result *result);
+
+/* Derivatives at the last solution: derivatives[wheel][i][j], right wheel first, is that of Fx, Fy,
+ * Fz (N), Mx, My, Mz (N mm), as `force` and `moment` of the result, over y, z (mm), roll, yaw (rad)
+ * and y_rate, z_rate (mm/s), roll_rate, yaw_rate (rad/s); all other things stay, also where the
+ * height was found for a load. A pitch rate that was left out stays that of pure rolling. Zeros of
+ * a wheel that was not asked for or is in the air, and over the rates at rest. Errors as
+ * faststrip_get_derivatives. */
+int faststrip_wheelset_get_derivatives(faststrip_wheelset *wheelset,
+                                       double derivatives[2][6][8]);
 
 /* Strips, elements, wear and fatigue of a contact of the last solution, contacts[i], as
  * faststrip_get_strips, faststrip_get_elements, faststrip_get_wear and faststrip_get_strip_wear

@@ -67,6 +67,7 @@ static long every_wheelset(void)
     faststrip_wheelset_contact contacts[FASTSTRIP_MOST_CONTACTS];
     faststrip_wheelset_result result;
     char text[FASTSTRIP_TEXT];
+    static double slopes[2][6][8];
     double figures[6];
     long failures = 0;
     int i, n, status;
@@ -82,6 +83,7 @@ static long every_wheelset(void)
         faststrip_wheelset_last_message(wheelset, text, sizeof text);
         wheelset_bits(wheelset, &states[i % ASKED], &demands[i % ASKED], &status);
         failures += status >= 100;
+        failures += faststrip_wheelset_get_derivatives(wheelset, slopes) >= 100;
         failures += faststrip_wheelset_get_wear(wheelset, 0, &wear_law, 300.0, figures) >= 100;
         failures += faststrip_wheelset_get_wear(wheelset, 0, NULL, hostile[i % HOSTILE],
                                                 figures) >= 100;
@@ -93,7 +95,7 @@ static long every_wheelset(void)
 /* All numbers of a case in turn hostile, the gap too; calls that fail and calls that do not. */
 static long every_contact(faststrip_workspace *workspace)
 {
-    double *field[22], forces[3], figures[6], c[4], array[4][400];
+    double *field[22], forces[3], figures[6], c[4], array[4][400], slopes[4][4];
     int integers[400];
     char text[FASTSTRIP_TEXT];
     faststrip_result result;
@@ -115,6 +117,7 @@ static long every_contact(faststrip_workspace *workspace)
         e.contact.with_elements = number % 2;
         failures += faststrip_set_gap(workspace, POINTS, e.y, e.h, e.inv2r, NULL) >= 100;
         failures += faststrip_solve(workspace, &e.contact, &result) >= 100;
+        failures += faststrip_get_derivatives(workspace, slopes) >= 100;
         faststrip_get_strips(workspace, 400, &n, array[0], array[1], array[2], array[3], integers);
         faststrip_get_steps(workspace, 400, &n, integers, integers, integers, integers, array[0],
                             array[1], array[2]);
@@ -454,7 +457,7 @@ static void wear_errors(faststrip_workspace *workspace)
     faststrip_wheelset *wheelset = make_wheelset(0), *gone = NULL;
     faststrip_wear_law law = wear_law;
     faststrip_result result;
-    double f[6], a[400];
+    double f[6], a[400], slopes[2][6][8];
     char text[FASTSTRIP_TEXT];
     faststrip_wheelset_state state;
     faststrip_wheelset_demand demand;
@@ -513,6 +516,13 @@ static void wear_errors(faststrip_workspace *workspace)
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_wear(wheelset, 0, &law, 300.0, NULL));
     EXPECT(FASTSTRIP_BAD_ARGUMENT,
            faststrip_wheelset_get_strips(wheelset, 0, 400, &n, a, a, a, a, k));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_derivatives(wheelset, slopes));
+    EXPECT(0, faststrip_wheelset_last_message(wheelset, text, sizeof text));
+    EXPECT(0, strcmp(text, "there is no solution of the wheelset"));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_derivatives(wheelset, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_derivatives(gone, slopes));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_derivatives(none, (double (*)[4])slopes));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_derivatives(workspace, NULL));
     EXPECT(FASTSTRIP_BAD_ARGUMENT,
            faststrip_wheelset_get_elements(wheelset, 0, 400, &n, a, a, a, a, a, a, a, a, k));
     EXPECT(FASTSTRIP_BAD_ARGUMENT,

@@ -76,6 +76,7 @@ contains
     subroutine by_every_method()
         type(workspace_t) :: workspace
         type(contact_result_t) :: result
+        real(wp) :: over_all(4, 4)
         integer :: i
 
         do i = 1, size(normals)
@@ -102,6 +103,9 @@ contains
             print '(a, i0, 2(1x, f10.3))', 'tangential ', tangentials(i), &
                 result%tangential%fx, result%tangential%fy
         end do
+        call find_contact_derivatives(workspace, case, result, over_all, status)
+        call check('derivatives')
+        print '(a, 1x, es10.3)', 'stiffness', over_all(1, 1)
         ! NORM and TANG come with faststrip-kalker; without it they are refused by name.
         case%methods = contact_methods_t(normal=normal_norm, tangential=tangential_tang)
         call solve_contact(workspace, case, result, status)
@@ -181,6 +185,7 @@ contains
         type(wheel_contact_t) :: contact
         type(wheel_strips_t) :: strips
         type(tangential_field_t) :: field
+        real(wp) :: slopes(6, 8, 2)
         integer :: i, side
 
         case%asked%field = .true.
@@ -207,6 +212,9 @@ contains
             call check('state')
             state%z = result%wheel(side_right)%z
             state%roll = result%wheel(side_right)%roll
+            call find_wheelset_derivatives(model, workspace, demand%wants, result, slopes, status)
+            call check('derivatives')
+            print '(a, 2(1x, es10.3))', 'stiffness', slopes(3, 2, :)
             do side = side_right, side_left
                 contact = result%wheel(side)%contact(1)
                 call find_wheel_strips(model, workspace, result, side, 1, strips, status)

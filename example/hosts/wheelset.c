@@ -75,6 +75,21 @@ static void show_parts(faststrip_wheelset *wheelset, int k)
     show(8, a[0]);
 }
 
+/* Columns of the derivatives, one by one. */
+static void show_derivatives(faststrip_wheelset *wheelset)
+{
+    double d[2][6][8], column[6];
+    int status = faststrip_wheelset_get_derivatives(wheelset, d), side, i, j;
+
+    printf("derivatives %d\n", status);
+    for (side = 0; side < 2 && status < FASTSTRIP_FIRST_ERROR; side++) {
+        for (j = 0; j < 8; j++) {
+            for (i = 0; i < 6; i++) column[i] = d[side][i][j];
+            show(6, column);
+        }
+    }
+}
+
 int main(void)
 {
     faststrip_wheelset_contact contacts[FASTSTRIP_MOST_CONTACTS];
@@ -112,6 +127,7 @@ int main(void)
                     show_parts(wheelset, k);
                 }
             }
+            if (status < FASTSTRIP_FIRST_ERROR) show_derivatives(wheelset);
         }
         /* What came between does not count where nothing starts warm. */
         bits = wheelset_bits(wheelset, &state, &demand, &status);

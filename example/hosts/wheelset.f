@@ -80,6 +80,7 @@ C         The rails have moved in the second half.
             S(2) = WRES(ISIDE)
             S(3) = WRES(3)
    70     CONTINUE
+          IF (INFO .LT. 100) CALL SLOPES(IWORK)
    80   CONTINUE
         CALL FSWFRE(IWORK, INFO)
         IF (INFO .NE. 0) STOP 1
@@ -100,6 +101,20 @@ C     One contact, in the rows of the other languages' programs.
         WRITE (*, '(9(Z16.16, :, 1X))') CONT(M:LAST(I), K)
         M = LAST(I) + 1
    10 CONTINUE
+      END
+
+C     Columns of the derivatives, one by one.
+      SUBROUTINE SLOPES(IWORK)
+      INTEGER IWORK(8), I, J, K, INFO
+      DOUBLE PRECISION D(6, 8, 2)
+      CALL FSWDRV(IWORK, D, INFO)
+      WRITE (*, '(A, 1X, I0)') 'derivatives', INFO
+      IF (INFO .GE. 100) RETURN
+      DO 20 K = 1, 2
+        DO 10 J = 1, 8
+          WRITE (*, '(6(Z16.16, :, 1X))') (D(I, J, K), I = 1, 6)
+   10   CONTINUE
+   20 CONTINUE
       END
 
 C     The second strip of a contact, and an element in its first half.

@@ -11,6 +11,7 @@ program wheelsets
     type(wheel_strips_t) :: found
     type(tangential_field_t) :: field
     type(status_t) :: status
+    real(wp) :: slopes(6, 8, 2)
     integer :: setup, i, side, k
 
     do setup = 1, 2
@@ -36,6 +37,15 @@ program wheelsets
                     state%z = wheel%z
                     state%roll = wheel%roll
                 end associate
+            end do
+            if (is_error(status)) cycle
+            call find_wheelset_derivatives(model, workspace, demand%wants, result, slopes, status)
+            print '(a, 1x, i0)', 'derivatives', status%code
+            if (is_error(status)) cycle
+            do side = 1, 2
+                do k = 1, 8
+                    call show(slopes(:, k, side))
+                end do
             end do
         end do
     end do

@@ -27,6 +27,7 @@ from ._catalogue import Case, Figures
 from ._interrupt import interruptible
 from ._library import (
     FIRST_ERROR,
+    NO_CONVERGENCE,
     TOO_SMALL,
     FaststripError,
     Handle,
@@ -236,6 +237,18 @@ def fetch(call: Any, function: Any, doubles: int, *first: int) -> list:
     return arrays
 
 
+def slopes(call: Any, function: Any, shape: Tuple[int, ...]) -> Array:
+    """Derivatives at the last solution; nan where contacts or patches come or go."""
+    found = np.empty(shape)
+    try:
+        call(function, found.ctypes.data)
+    except FaststripError as problem:
+        if problem.status != NO_CONVERGENCE:
+            raise
+        found[:] = np.nan
+    return found
+
+
 def strip_wear(call: Any, function: Any, n_strips: int, law: Optional[WearLaw],
                *first: int) -> StripWear:
     """Forces and wear of so many strips."""
@@ -410,7 +423,7 @@ class Contact:
               material: Material = Material(), friction: Friction = CONSTANT, speed: float = 0.0,
               contact_angle: float = 0.0, warm_start: bool = False,
               target: Optional[str] = None, tolerance: Optional[float] = None,
-              budget_us: Optional[float] = None) -> Result:
+              budget_us: Optional[float] = None, derivatives: bool = False) -> Result:
         """Solve for a load or a penetration: one of the two.
 
         Parameters
@@ -443,6 +456,8 @@ class Contact:
             ``target_missed`` is as near as strips come.
         budget_us : float
             Time for it, us: without a tolerance it gives the least estimated error in that time.
+        derivatives : bool
+            Are those over penetration and creepages wanted, too? Not of ``auto`` and references.
 
         Returns
         -------
@@ -490,7 +505,8 @@ class Contact:
             *(_force_errors_of(figures) if figures.forces_are_estimated else _NO_FORCE_ERRORS),
             *(self._taken(figures) if figures.n_steps else (None, None, ())),
             limitation_words(figures.limitations))
-        return Result(*found)
+        return Result(*found, slopes(self._call, library.faststrip_get_derivatives, (4, 4))
+                      if flag("derivatives", derivatives) else None)
 
     def _taken(self, figures: Figures) -> Tuple[Optional[float], Optional[bool], Tuple[Step, ...]]:
         """What came of auto: estimated error of the target, is it met, the steps."""

@@ -21,6 +21,7 @@ TEXT = 257
 FIRST_ERROR = 100
 BAD_ARGUMENT = 100
 NOT_FINITE = 101
+NO_CONVERGENCE = 108
 TOO_SMALL = 110
 
 
@@ -109,6 +110,7 @@ def _declare(library: ctypes.CDLL) -> None:
         "solve": [handle, POINTER(Case), POINTER(Figures)],
         "solve_many": [c_size_t, c_void_p, c_int, *[c_void_p] * 2, c_int, c_int, *[c_void_p] * 2,
                        c_char_p, c_size_t],
+        "get_derivatives": [handle, c_void_p],
         "get_strips": [handle, c_int, POINTER(c_int), *[c_void_p] * 5],
         "get_elements": [handle, c_int, POINTER(c_int), *[c_void_p] * 9],
         "get_steps": [handle, c_int, POINTER(c_int), *[c_void_p] * 7],
@@ -128,6 +130,7 @@ def _declare(library: ctypes.CDLL) -> None:
         "wheelset_new": [*[c_void_p] * 3, POINTER(Case), POINTER(handle), c_char_p, c_size_t],
         "wheelset_free": [POINTER(handle)],
         "wheelset_solve": [handle, *[c_void_p] * 2, c_int, POINTER(c_int), *[c_void_p] * 2],
+        "wheelset_get_derivatives": [handle, c_void_p],
         "wheelset_get_strips": [handle, c_int, c_int, POINTER(c_int), *[c_void_p] * 5],
         "wheelset_get_elements": [handle, c_int, c_int, POINTER(c_int), *[c_void_p] * 9],
         "wheelset_get_wear": [handle, c_int, c_void_p, number, POINTER(number)],

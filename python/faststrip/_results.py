@@ -69,6 +69,9 @@ class Result(Row):
         What ``normal="auto"`` did; results are compared without, as it has times.
     limitations : tuple of str
         All of them, of which `word` is the first.
+    derivatives : ndarray of float, shape (4, 4), or None
+        Where they were asked for: of load, fx, fy, mz over penetration, cksi, ceta, cphi, in N,
+        N mm over mm, 1, rad/mm; nan where patches come or go.
     """
 
     status: int
@@ -104,10 +107,11 @@ class Result(Row):
     target_is_met: Optional[bool] = None
     steps: Tuple[Step, ...] = field(default=(), compare=False)
     limitations: Tuple[str, ...] = ()
+    derivatives: Optional[Array] = field(default=None, compare=False, repr=False)
 
     def _columns(self) -> Dict[str, Any]:
         columns = super()._columns()
-        del columns["steps"]
+        del columns["steps"], columns["derivatives"]
         columns["limitations"] = " ".join(self.limitations)
         columns["target_is_met"] = bool(self.target_is_met)
         return columns

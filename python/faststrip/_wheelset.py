@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import operator
 from ctypes import c_double, c_int, c_size_t
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar, Dict, Optional, Tuple, Union
 
 import numpy as np
@@ -19,6 +19,7 @@ from ._contact import (
     fetch,
     new_case,
     number_of,
+    slopes,
     strip_wear,
     take_material,
     want,
@@ -266,6 +267,11 @@ class WheelsetResult(Table):
         About the wheelset's centre, in the track, N mm.
     n_solutions : two ints
         Contact problems that were solved for each wheel.
+    derivatives : ndarray of float, shape (2, 6, 8), or None
+        Where they were asked for: of force and moment, x, y, z each, over y, z, roll, yaw and
+        y_rate, z_rate, roll_rate, yaw_rate, in N, N mm over mm, rad and per s; all other things
+        stay. Zeros in the air, and over the rates at rest; nan where contacts or patches come or
+        go.
     """
 
     status: int
@@ -277,6 +283,7 @@ class WheelsetResult(Table):
     force_wheelset: Array
     moment: Array
     n_solutions: Tuple[int, ...]
+    derivatives: Optional[Array] = field(default=None, compare=False, repr=False)
     _rows: ClassVar[str] = "contact"
 
     def _columns(self) -> Dict[str, Any]:
@@ -394,7 +401,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
               curvature: float = 0.0, load: Union[None, float, Tuple[float, float]] = None,
               axle_load: Optional[float] = None, roll_moment: float = 0.0, wheels: str = "both",
               at_rest: bool = False, warm_start: bool = False, right_rail: RailState = IN_PLACE,
-              left_rail: RailState = IN_PLACE) -> WheelsetResult:
+              left_rail: RailState = IN_PLACE, derivatives: bool = False) -> WheelsetResult:
         """Solve for a position z, a load of each wheel or an axle_load: one of the three.
 
         Parameters
@@ -433,6 +440,8 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
             Begin with the last solution, if there is one.
         right_rail, left_rail : RailState
             Where the rails lie beside their places, and how they move.
+        derivatives : bool
+            Are those over position and velocity wanted, too? Not of ``auto`` and references.
 
         Returns
         -------
@@ -481,7 +490,9 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         return WheelsetResult(
             status, word_of(status), tuple(map(_contact_of, rows[:n.value])), tuple(totals.z),
             totals.roll, np.array(totals.force), np.array(totals.force_wheelset),
-            np.array(totals.moment), tuple(totals.n_solutions))
+            np.array(totals.moment), tuple(totals.n_solutions),
+            slopes(self._call, library.faststrip_wheelset_get_derivatives, (2, 6, 8))
+            if flag("derivatives", derivatives) else None)
 
     def wear(self, law: Optional[WearLaw] = None, *,
              yield_shear: Optional[float] = None) -> Tuple[Wear, ...]:

@@ -79,6 +79,7 @@ module faststrip
     use faststrip_contact_method_capacity, only: on_gap_t
     use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, solve_contact_forces
+    use faststrip_contact_derivatives, only: find_contact_derivatives
     use faststrip_tangential_wear_law, only: wear_law_t
     use faststrip_tangential_types, only: tangential_field_t
     ! Methods.
@@ -104,6 +105,7 @@ module faststrip
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load, demand_rest
     use faststrip_wheelset_solve, only: make_wheelset, reserve_wheelset, solve_wheelset
+    use faststrip_wheelset_derivatives, only: find_wheelset_derivatives
     use faststrip_wheelset_field, only: find_wheel_field
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips
     implicit none

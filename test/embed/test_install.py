@@ -17,6 +17,7 @@ NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadm
 F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt"
                 " fserrs fsferr fslset fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast"
                 " fsints fswdft fswnew fsrail fswslv fswset fswstr fswelm fswstw fswcpy fswfre"
+                " fsderv fswdrv"
                 " fsfric fswear fsstwr fscfun fsconi fslopn fslfre fslinf fslook fslwin fslcon"
                 " fslwhl fsrdpr fsdoub".split())
 

@@ -7,6 +7,16 @@ import math
 from installed import HOSTS, ROOT, HostTest, bits
 
 
+def slopes_of(package, wheelset):
+    """Columns of the derivatives at the last solution, one by one."""
+    slopes = package._contact.slopes(wheelset._call,
+                                     package._library.library.faststrip_wheelset_get_derivatives,
+                                     (2, 6, 8))
+    if math.isnan(slopes[0, 0, 0]):
+        return ["derivatives 108"]
+    return ["derivatives 0", *(bits(*slopes[side, :, k]) for side in range(2) for k in range(8))]
+
+
 class Interfaces(HostTest):
     @classmethod
     def setUpClass(cls):
@@ -63,6 +73,8 @@ class Interfaces(HostTest):
                     for k, one in enumerate(contacts):
                         if one.side == name:
                             lines += [*rows_of(one), *parts_of(wheelset, k)]
+                if status < 100:
+                    lines += slopes_of(package, wheelset)
         wanted = [line for line in self.lines if not line.startswith("contact")]
         wanted = [tuple(map(int, line.split()[2:])) if line.startswith("wheel") else line
                   for line in wanted]

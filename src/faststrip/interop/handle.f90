@@ -14,6 +14,7 @@ module faststrip_interop_handle
     use faststrip_contact_plausible, only: doubts_t, gap_size_t, case_names_t, gap_size, &
                                            find_doubts, doubt_pressure
     use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
+    use faststrip_contact_derivatives, only: find_contact_derivatives
     use faststrip_contact_solve, only: solve_contact, set_contact_gap
     use faststrip_interop_register, only: enter_register, leave_register, look_up_register, &
                                           kind_contact
@@ -22,6 +23,7 @@ module faststrip_interop_handle
     private
 
     public :: handle_t, new_handle, free_handle, find_handle, handle_gap, handle_solve, copy_handle
+    public :: handle_derivatives
 
     !> One caller's workspace.
     type :: handle_t
@@ -136,6 +138,15 @@ contains
         call doubt_pressure('pmax', handle%result%normal%pmax, handle%doubts)
         call restore_environment(environment)
     end subroutine handle_solve
+
+    !> Derivatives at the last contact of a handle.
+    subroutine handle_derivatives(handle, derivatives)
+        type(handle_t), intent(inout) :: handle    !! its status tells how it ended
+        real(wp), intent(out) :: derivatives(4, 4) !! as `find_contact_derivatives` has them
+
+        call find_contact_derivatives(handle%workspace, handle%case, handle%result, derivatives, &
+                                      handle%status)
+    end subroutine handle_derivatives
 
     !> The coefficient of friction of the contact's angle.
     subroutine take_angle(handle)

@@ -12,6 +12,7 @@ module faststrip_interop_wheelset_handle
                                            doubt_pressure
     use faststrip_base_plausible, only: of_radius
     use faststrip_wheelset_plausible, only: state_names_t, find_state_doubts
+    use faststrip_wheelset_derivatives, only: find_wheelset_derivatives
     use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, side_right, side_left
@@ -21,7 +22,7 @@ module faststrip_interop_wheelset_handle
     public :: wheelset_handle_t
     public :: allocate_wheelset, free_wheelset, find_wheelset, take_wheels, wheelset_solve
     public :: contact_count, contact_place, find_contact, contact_mirror
-    public :: copy_wheelset, pitch_rate_of
+    public :: copy_wheelset, pitch_rate_of, wheelset_derivatives
 
     ! Given: `FASTSTRIP_LOCKED_WHEELS`, what stands for a pitch rate of 0.
     real(wp), parameter :: locked_wheels = 1.0e300_wp
@@ -35,6 +36,8 @@ module faststrip_interop_wheelset_handle
         type(rail_state_t) :: rail(2) !! right, left: of the F77 interface, which sets them once
         type(status_t) :: status      !! of the last call
         type(doubts_t) :: doubts      !! what was outside of practice in the last state
+        real(wp) :: derivatives(6, 8, 2) = 0.0_wp
+            !! as `find_wheelset_derivatives` has them, of the last call for them
     end type wheelset_handle_t
 
 contains
@@ -162,6 +165,14 @@ contains
                         'there are more contacts than fit: ' // count_text(n))
         handle%has = .false.
     end subroutine wheelset_solve
+
+    !> Derivatives at the last solution of a handle.
+    subroutine wheelset_derivatives(handle)
+        type(wheelset_handle_t), intent(inout) :: handle !! gets them; its status tells how it ended
+
+        call find_wheelset_derivatives(handle%model, handle%workspace, handle%has, handle%result, &
+                                       handle%derivatives, handle%status)
+    end subroutine wheelset_derivatives
 
     !> Contacts of the last solution.
     pure integer function contact_count(handle)

@@ -6,6 +6,7 @@
 module faststrip_wheelset_guide
     use faststrip_base_kinds, only: wp
     use faststrip_contact_case, only: contact_case_t, asked_t
+    use faststrip_contact_derivatives, only: stays_the_same
     use faststrip_contact_methods, only: normal_table, tangential_table, normal_strip, &
                                          normal_auto, tangential_faststrip
     implicit none
@@ -19,11 +20,7 @@ contains
     pure logical function needs_guide(case)
         type(contact_case_t), intent(in) :: case !! methods, smoothing
 
-        needs_guide = case%methods%normal == normal_auto .or. case%smoothing > 0.0_wp &
-                      .or. .not. any(normal_table%number == case%methods%normal &
-                                     .and. normal_table%in_core) &
-                      .or. .not. any(tangential_table%number == case%methods%tangential &
-                                     .and. tangential_table%in_core)
+        needs_guide = .not. stays_the_same(case)
     end function needs_guide
 
     !> The case that finds the height.

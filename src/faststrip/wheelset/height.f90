@@ -10,7 +10,7 @@ module faststrip_wheelset_height
     implicit none
     private
 
-    public :: set_outline, try_height
+    public :: set_outline, try_height, as_right
 
 contains
 
@@ -32,26 +32,27 @@ contains
                             trim(number_text(state%y)) // ' mm of the wheelset')
     end subroutine set_outline
 
-    ! The state as a right wheel has it.
+    !> The state as a right wheel has it.
     pure type(wheelset_state_t) function as_right(state, side)
-        type(wheelset_state_t), intent(in) :: state
-        integer, intent(in) :: side
+        type(wheelset_state_t), intent(in) :: state !! mm, rad, s
+        integer, intent(in) :: side                 !! `side_right` or `side_left`
 
         as_right = state
         if (side == side_left) as_right = mirrored_state(state)
     end function as_right
 
     !> One wheel at a height, without estimates.
-    subroutine try_height(model, workspace, state, side, z, wheel)
+    subroutine try_height(model, workspace, state, side, z, wheel, neighbour)
         type(wheelset_model_t), intent(in) :: model            !! made
         type(wheelset_workspace_t), intent(inout) :: workspace !! with the outline of the state
         type(wheelset_state_t), intent(in) :: state            !! its z does not count, mm, rad
         integer, intent(in) :: side                            !! `side_right` or `side_left`
         real(wp), intent(in) :: z                              !! of the wheelset's centre, mm
         type(wheel_result_t), intent(inout) :: wheel           !! as of a right wheel
+        real(wp), intent(in), optional :: neighbour            !! as of `solve_wheel_at`
 
         call solve_wheel_at(model, model%pair(side), workspace%wheel(side), &
-                            as_right(state, side), z, wheel)
+                            as_right(state, side), z, wheel, neighbour)
         wheel%z = z
     end subroutine try_height
 end module faststrip_wheelset_height

@@ -83,6 +83,7 @@ contains
         guide%methods = model%case%methods
         call take_guide(guide)
         workspace%has_last = .false.
+        if (.not. allocated(workspace%near)) allocate (workspace%near(1))
         do side = side_right, side_left
             associate (wheel => workspace%wheel(side), pair => model%pair(side))
                 if (.not. allocated(pair%y)) then

@@ -140,5 +140,6 @@ module faststrip_wheelset_types
         real(wp) :: stiffness(2, 2) = 0.0_wp
             !! of load and roll moment over z and roll at the last balance; 0: not known, N/mm, N,
             !! N, N mm
+        type(wheel_result_t), allocatable :: near(:) !! (1) a neighbour, for derivatives
     end type wheelset_workspace_t
 end module faststrip_wheelset_types

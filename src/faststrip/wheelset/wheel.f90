@@ -3,10 +3,11 @@ module faststrip_wheelset_wheel
     use faststrip_base_friction, only: friction_at_angle, largest_speed
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: largest_ratio
-    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_out_of_range
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     st_out_of_range, st_no_convergence
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_solve, only: set_contact_gap, solve_contact, estimate_contact, &
-                                       name_yield
+    use faststrip_contact_solve, only: set_contact_gap, solve_contact, solve_contact_forces, &
+                                       estimate_contact, name_yield
     use faststrip_contact_methods, only: normal_auto, tangential_linear
     use faststrip_geometry_gap, only: gap_t
     use faststrip_wheelset_guide, only: needs_guide, take_guide
@@ -25,12 +26,15 @@ module faststrip_wheelset_wheel
     private
 
     public :: solve_wheel_at, estimate_wheel, name_pressures, mirror_wheel, reverse_wheel
-    public :: take_motion
+    public :: take_motion, move_wheel
 
     ! Tuned [1]: of the strips' last step. Origin: measured: with 1e-10 a step of a wheelset costs a
     ! tenth more; with five strips forces from the last solution are those without it within 2e-7 of
     ! the load (3e-8 with 1e-10, 4e-7 with 5e-9).
     real(wp), parameter :: strip_tolerance = 2.0e-9_wp
+    ! Tuned [1]: how high gaps of neighbours are sampled, over the overlap. Origin: patches end
+    ! below the overlap.
+    real(wp), parameter :: near_height = 1.5_wp
     ! Falling friction takes a wheelset that rolls slower than this, in mm/s, as one that rolls so:
     ! slip is nothing there.
     real(wp), parameter :: least_speed = 1.0_wp/largest_speed
@@ -38,13 +42,16 @@ module faststrip_wheelset_wheel
 contains
 
     !> All contacts of a wheel that is lowered beyond the state of its outline, without estimates.
-    subroutine solve_wheel_at(model, pair, workspace, state, lowered, wheel)
+    subroutine solve_wheel_at(model, pair, workspace, state, lowered, wheel, neighbour)
         type(wheelset_model_t), intent(in) :: model          !! made
         type(wheel_on_rail_t), intent(in) :: pair            !! of this side
         type(wheel_workspace_t), intent(inout) :: workspace  !! with the outline of the state
         type(wheelset_state_t), intent(in) :: state          !! as of a right wheel
         real(wp), intent(in) :: lowered                      !! mm
         type(wheel_result_t), intent(inout) :: wheel         !! as of a right wheel; z not set
+        real(wp), intent(in), optional :: neighbour
+            !! is the state one of that of the last solution, whose contacts and strips stay? Then
+            !! this is the tolerance of the strips' last step
 
         type(region_t) :: regions(most_regions)
         type(contact_case_t) :: case
@@ -53,9 +60,6 @@ contains
         call find_regions(pair, workspace%outline, lowered, regions, n)
         call join_near(model, regions, n)
         wheel%n = n
-        wheel%force = 0.0_wp
-        wheel%force_wheelset = 0.0_wp
-        wheel%moment = 0.0_wp
         call clear_status(wheel%status)
         case = model%case
         case%by_load = .false.
@@ -66,6 +70,14 @@ contains
         case%yield = 0.0_wp
         case%strip_tolerance = min(case%strip_tolerance, strip_tolerance)
         case%warm_start = workspace%n == n .and. (workspace%is_guided .or. .not. needs_guide(case))
+        if (present(neighbour)) then
+            case%stays = .true.
+            case%strip_tolerance = neighbour
+            if (workspace%n /= n) then
+                call set_status(wheel%status, st_no_convergence, 'contacts come or go')
+                return
+            end if
+        end if
         workspace%n = n
         workspace%region(:n) = regions(:n)
         do i = 1, n
@@ -75,15 +87,63 @@ contains
                 wheel%solutions = wheel%solutions + 1
                 if (worse(contact%status, wheel%status)) wheel%status = contact%status
                 if (is_error(contact%status)) then
-                    workspace%n = 0
+                    if (.not. case%stays) workspace%n = 0
                     return
                 end if
-                wheel%force = wheel%force + contact%force
-                wheel%force_wheelset = wheel%force_wheelset + contact%force_wheelset
-                wheel%moment = wheel%moment + contact%moment
             end associate
         end do
+        call add_contacts(wheel)
     end subroutine solve_wheel_at
+
+    !> The forces of a solved wheel that moves otherwise: on the pressures that it has.
+    subroutine move_wheel(model, pair, workspace, state, lowered, wheel)
+        type(wheelset_model_t), intent(in) :: model          !! made
+        type(wheel_on_rail_t), intent(in) :: pair            !! of this side
+        type(wheel_workspace_t), intent(inout) :: workspace  !! of the solution
+        type(wheelset_state_t), intent(in) :: state          !! as of a right wheel: other rates
+        real(wp), intent(in) :: lowered                      !! mm, that of the solution
+        type(wheel_result_t), intent(inout) :: wheel         !! solved, as of a right wheel
+
+        type(contact_case_t) :: case
+        type(wheelset_axes_t) :: axes
+        integer :: i
+
+        axes = lowered_axes(workspace, lowered)
+        case = model%case
+        case%estimate = .false.
+        do i = 1, wheel%n
+            associate (contact => wheel%contact(i))
+                case%penetration = contact%figures%normal%penetration
+                call find_motion(pair, state, axes, contact_frame_t(contact%place, contact%angle), &
+                                 case, contact)
+                if (.not. is_error(contact%status)) then
+                    call take_motion(model, contact, case)
+                    call solve_contact_forces(workspace%contact(i), case, contact%figures, &
+                                              contact%status)
+                end if
+                if (worse(contact%status, wheel%status)) wheel%status = contact%status
+                if (is_error(contact%status)) return
+                call find_contact_force(axes, contact)
+            end associate
+        end do
+        call add_contacts(wheel)
+    end subroutine move_wheel
+
+    ! The sums of a wheel's contacts.
+    pure subroutine add_contacts(wheel)
+        type(wheel_result_t), intent(inout) :: wheel
+
+        integer :: i
+
+        wheel%force = 0.0_wp
+        wheel%force_wheelset = 0.0_wp
+        wheel%moment = 0.0_wp
+        do i = 1, wheel%n
+            wheel%force = wheel%force + wheel%contact(i)%force
+            wheel%force_wheelset = wheel%force_wheelset + wheel%contact(i)%force_wheelset
+            wheel%moment = wheel%moment + wheel%contact(i)%moment
+        end do
+    end subroutine add_contacts
 
     !> Error estimates of the last solution of a wheel; too large ones are named in the statuses of
     !> its contacts, and by `name_pressures` in its own.
@@ -191,13 +251,14 @@ contains
         type(contact_frame_t) :: frame
         type(wheelset_axes_t) :: axes
         type(rail_state_t) :: rail
-        real(wp) :: point(3)
+        real(wp) :: height
 
-        axes = workspace%outline%axes
-        axes%centre(3) = axes%centre(3) + lowered
+        axes = lowered_axes(workspace, lowered)
+        height = model%gap_height
+        if (case%stays) height = min(height, near_height*region%depth)
         rail = workspace%outline%state%rail(1)
         call place_frame(pair, rail, region, frame)
-        call find_frame_gap(pair, workspace%outline, region, lowered, frame, model%gap_height, &
+        call find_frame_gap(pair, workspace%outline, region, lowered, frame, height, &
                             case%smoothing > 0.0_wp, workspace%gap, contact%status)
         if (is_error(contact%status)) return
         associate (gap => workspace%gap, n => workspace%gap%n)
@@ -213,22 +274,55 @@ contains
         contact%place = frame%origin
         contact%angle = frame%angle
         contact%rail = on_rail_profile(pair, rail, frame%origin(2:3))
-        ! Velocities are those of the wheel's surface before it is deformed.
-        point = along_normal(frame, case%penetration)
-        call rigid_creepage(state, axes, point, frame%angle, contact%creepage, contact%speed, &
-                            rail_velocity(rail, frame%origin(2:3) - rail_origin(pair, rail)))
-        associate (c => contact%creepage)
-            if (max(abs(c%cksi), abs(c%ceta), abs(c%cphi)) >= largest_ratio &
-                .and. case%methods%tangential == tangential_linear) then
-                call set_status(contact%status, st_out_of_range, 'linear forces have no limit ' // &
-                                'where a wheelset slides but hardly rolls: take another method')
-                return
-            end if
-        end associate
+        call find_motion(pair, state, axes, frame, case, contact)
+        if (is_error(contact%status)) return
         call place_on_wheel(pair, axes, frame%origin, contact)
         call take_motion(model, contact, case)
         call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
         if (is_error(contact%status)) return
+        call find_contact_force(axes, contact)
+    end subroutine solve_one
+
+    ! The axes of a wheelset that is lowered beyond the state of a wheel's outline.
+    pure type(wheelset_axes_t) function lowered_axes(workspace, lowered) result(axes)
+        type(wheel_workspace_t), intent(in) :: workspace
+        real(wp), intent(in) :: lowered
+
+        axes = workspace%outline%axes
+        axes%centre(3) = axes%centre(3) + lowered
+    end function lowered_axes
+
+    ! Creepages and speed of a contact.
+    subroutine find_motion(pair, state, axes, frame, case, contact)
+        type(wheel_on_rail_t), intent(in) :: pair
+        type(wheelset_state_t), intent(in) :: state
+        type(wheelset_axes_t), intent(in) :: axes  ! where the wheelset is
+        type(contact_frame_t), intent(in) :: frame
+        type(contact_case_t), intent(in) :: case   ! its penetration is known
+        type(wheel_contact_t), intent(inout) :: contact
+
+        real(wp) :: point(3)
+
+        ! Velocities are those of the wheel's surface before it is deformed.
+        point = along_normal(frame, case%penetration)
+        associate (rail => state%rail(1), c => contact%creepage)
+            call rigid_creepage(state, axes, point, frame%angle, c, contact%speed, &
+                                rail_velocity(rail, frame%origin(2:3) - rail_origin(pair, rail)))
+            if (max(abs(c%cksi), abs(c%ceta), abs(c%cphi)) >= largest_ratio &
+                .and. case%methods%tangential == tangential_linear) &
+                call set_status(contact%status, st_out_of_range, 'linear forces have no limit ' // &
+                                'where a wheelset slides but hardly rolls: take another method')
+        end associate
+    end subroutine find_motion
+
+    ! Force and moment of a solved contact on its rail.
+    pure subroutine find_contact_force(axes, contact)
+        type(wheelset_axes_t), intent(in) :: axes
+        type(wheel_contact_t), intent(inout) :: contact
+
+        type(contact_frame_t) :: frame
+
+        frame = contact_frame_t(contact%place, contact%angle)
         associate (normal => contact%figures%normal, forces => contact%figures%tangential)
             contact%force = in_track(frame, [forces%fx, forces%fy, normal%load])
             contact%force_wheelset = [dot_product(contact%force, axes%ahead), &
@@ -237,7 +331,7 @@ contains
             contact%moment = cross(frame%origin - axes%centre, contact%force) &
                              + in_track(frame, [0.0_wp, 0.0_wp, forces%mz])
         end associate
-    end subroutine solve_one
+    end subroutine find_contact_force
 
     !> Creepages of a contact, and the friction of its angle and speed.
     pure subroutine take_motion(model, contact, case)

@@ -1,0 +1,210 @@
+!> Derivatives of the forces of a wheel over position and velocity of the wheelset.
+!>
+!> At a solution strips start from where they are, with influence coefficients and factors that
+!> serve to all digits: a neighbouring state costs its gap and a few steps. So derivatives are
+!> differences between neighbours that are solved to the last digits, on one side, with the strips,
+!> patches and contacts that the solution has; where a neighbour has others the one on the other
+!> side is taken. Over the rates pressures stay, and only the creep forces are found again.
+module faststrip_wheelset_derivatives
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
+                                     st_bad_argument
+    use faststrip_contact_derivatives, only: check_differentiable, creepage_step, &
+                                             difference_step, finest
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, reversed_state, is_at_rest
+    use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
+    use faststrip_wheelset_height, only: set_outline, try_height, as_right
+    use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
+                                        wheelset_result_t, wheel_result_t, side_right, side_left
+    use faststrip_wheelset_wheel, only: move_wheel, mirror_wheel, reverse_wheel
+    implicit none
+    private
+
+    public :: find_wheelset_derivatives
+
+    !> Given: columns of derivatives.
+    integer, parameter :: n_coordinates = 4
+    ! Given: in which order they are looked at: the outline for z is that of the solution.
+    integer, parameter :: order(n_coordinates) = [1, 3, 4, 2]
+    ! Given: signs of columns in a mirror, and of a wheelset that rolls back.
+    real(wp), parameter :: mirrored(2*n_coordinates) = [-1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, &
+                                                        -1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp], &
+                           reversed(2*n_coordinates) = [1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, &
+                                                        1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp]
+
+    ! Tuned [mm]: step of the yaw over it. Origin: creepages change by as much as above.
+    real(wp), parameter :: yaw_lever = 10.0_wp
+
+contains
+
+    !> Derivatives of the forces of each wheel on its rail, in the track, and of their moments about
+    !> the wheelset's centre, at the last solution: rows Fx, Fy, Fz, N, Mx, My, Mz, N mm; columns y,
+    !> z, mm, roll, yaw, rad, and their rates, per s. Strips are solved to the last digits on the
+    !> way. Over the rates of a wheelset that is at rest derivatives are 0: it has no friction
+    !> there; those of a wheel in the air are 0, too.
+    subroutine find_wheelset_derivatives(model, workspace, wants, result, derivatives, status)
+        type(wheelset_model_t), intent(in) :: model                !! made
+        type(wheelset_workspace_t), intent(inout) :: workspace     !! of the solution
+        logical, intent(in) :: wants(2)                            !! which wheels: right, left
+        type(wheelset_result_t), intent(in) :: result              !! of the solution
+        real(wp), intent(out) :: derivatives(6, 8, 2)              !! of right and left wheel; 0
+                                                                   !! where not asked for
+        type(status_t), intent(out) :: status
+            !! those of `check_differentiable`; `st_bad_argument`: no solution;
+            !! `st_no_convergence`: contacts or patches come or go at this state
+
+        type(environment_t) :: environment
+        type(wheel_result_t), allocatable :: near(:)
+        integer :: side
+
+        derivatives = 0.0_wp
+        call check_differentiable(model%case, status)
+        if (.not. workspace%has_last) &
+            call set_status(status, st_bad_argument, 'there is no solution of the wheelset')
+        if (is_error(status)) return
+        call hold_environment(environment)
+        ! Much for a stack; nothing is allocated.
+        call move_alloc(workspace%near, near)
+        do side = side_right, side_left
+            if (.not. wants(side) .or. is_error(status)) cycle
+            if (result%wheel(side)%n == 0) cycle
+            call find_of_wheel(model, workspace, side, result%wheel(side), near(1), &
+                               derivatives(:, :, side), status)
+        end do
+        call move_alloc(near, workspace%near)
+        call restore_environment(environment)
+    end subroutine find_wheelset_derivatives
+
+    subroutine find_of_wheel(model, workspace, side, wheel, near, derivatives, status)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheelset_workspace_t), intent(inout) :: workspace
+        integer, intent(in) :: side
+        type(wheel_result_t), intent(in) :: wheel    ! of the solution
+        type(wheel_result_t), intent(inout) :: near  ! of its neighbours
+        real(wp), intent(inout) :: derivatives(:, :)
+        type(status_t), intent(inout) :: status
+
+        type(wheelset_state_t) :: state
+        type(status_t) :: there_is_none
+        real(wp) :: step(2*n_coordinates), forces(6, n_coordinates), here(6), &
+            there(6), smallest
+        integer :: i, j
+
+        state = workspace%last_state
+        state%z = wheel%z
+        smallest = minval(wheel%contact(:wheel%n)%figures%normal%penetration)
+        step(1:2) = difference_step(smallest)
+        step(3) = step(1)/model%pair(side)%y_line
+        step(4) = step(1)/yaw_lever
+        step(5:6) = creepage_step*maxval(wheel%contact(:wheel%n)%speed)
+        step(7:8) = step(5)/model%pair(side)%y_line
+        ! To the side that is the same of a wheel in a mirror.
+        if (side == side_left) step = step*mirrored
+        if (workspace%is_reversed) step = step*reversed
+        do j = 1, n_coordinates
+            i = order(j)
+            call solve(moved(state, i, step(i)), .false., forces(:, i))
+            if (.not. failed()) cycle
+            ! What comes or goes there may not do so on the other side.
+            call clear_status(status)
+            step(i) = -step(i)
+            call solve(moved(state, i, step(i)), .false., forces(:, i))
+            if (failed()) exit
+        end do
+        there_is_none = status
+        call clear_status(status)
+        ! Where none failed the last outline was that for z.
+        call solve(state, .not. is_error(there_is_none), here)
+        if (failed() .or. is_error(there_is_none)) then
+            if (is_error(there_is_none)) status = there_is_none
+            return
+        end if
+        do i = 1, n_coordinates
+            derivatives(:, i) = (forces(:, i) - here)/step(i)
+        end do
+        if (is_at_rest(state)) return
+        call turn_back(near)
+        do i = n_coordinates + 1, 2*n_coordinates
+            call move_near(moved(state, i, step(i)), there)
+            if (failed()) return
+            derivatives(:, i) = (there - here)/step(i)
+        end do
+        ! What is asked of strips and elements is that of the solution.
+        call move_near(state, there)
+
+    contains
+
+        ! A state as it was solved.
+        type(wheelset_state_t) function seen(there)
+            type(wheelset_state_t), intent(in) :: there
+
+            seen = there
+            if (workspace%is_reversed) seen = reversed_state(there)
+            seen = as_right(seen, side)
+        end function seen
+
+        ! A wheel between what was solved and what it is.
+        subroutine turn_back(there)
+            type(wheel_result_t), intent(inout) :: there
+
+            if (workspace%is_reversed) call reverse_wheel(there)
+            if (side == side_left) call mirror_wheel(there)
+        end subroutine turn_back
+
+        subroutine solve(there, outlined, found)
+            type(wheelset_state_t), intent(in) :: there
+            logical, intent(in) :: outlined ! is the outline of the wheel that of the state?
+            real(wp), intent(out) :: found(6)
+
+            type(wheelset_state_t) :: as_solved
+            real(wp) :: touch
+
+            as_solved = there
+            if (workspace%is_reversed) as_solved = reversed_state(there)
+            if (.not. outlined) call set_outline(model, workspace, as_solved, side, touch, status)
+            call try_height(model, workspace, as_solved, side, there%z, near, finest)
+            call turn_back(near)
+            found = [near%force, near%moment]
+        end subroutine solve
+
+        ! The same pressures, moving otherwise.
+        subroutine move_near(moving, found)
+            type(wheelset_state_t), intent(in) :: moving
+            real(wp), intent(out) :: found(6)
+
+            call move_wheel(model, model%pair(side), workspace%wheel(side), seen(moving), state%z, &
+                            near)
+            call turn_back(near)
+            found = [near%force, near%moment]
+            call turn_back(near)
+        end subroutine move_near
+
+        logical function failed()
+            failed = is_error(near%status) .or. is_error(status)
+            if (is_error(near%status)) status = near%status
+        end function failed
+    end subroutine find_of_wheel
+
+    ! A state whose i-th coordinate or rate is larger by a step.
+    pure type(wheelset_state_t) function moved(state, i, step)
+        type(wheelset_state_t), intent(in) :: state
+        integer, intent(in) :: i
+        real(wp), intent(in) :: step
+
+        real(wp) :: change(2*n_coordinates)
+
+        change = 0.0_wp
+        change(i) = step
+        moved = state
+        associate (rate => change(n_coordinates + 1:))
+            moved%y = state%y + change(1)
+            moved%z = state%z + change(2)
+            moved%roll = state%roll + change(3)
+            moved%yaw = state%yaw + change(4)
+            moved%y_rate = state%y_rate + rate(1)
+            moved%z_rate = state%z_rate + rate(2)
+            moved%roll_rate = state%roll_rate + rate(3)
+            moved%yaw_rate = state%yaw_rate + rate(4)
+        end associate
+    end function moved
+end module faststrip_wheelset_derivatives

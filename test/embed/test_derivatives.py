@@ -1,0 +1,93 @@
+"""Derivatives of forces over position, velocity and creepages, by the interfaces for hosts."""
+
+import math
+
+import numpy as np
+
+from installed import HostTest
+
+COORDINATES = ("y", "z", "roll", "yaw", "y_rate", "z_rate", "roll_rate", "yaw_rate")
+STATE = {"y": 1.0, "yaw": 2e-3, "speed": 2e4, "y_rate": 30.0, "yaw_rate": -4e-3}
+
+
+class Derivatives(HostTest):
+    def test_columns_and_rows_are_where_they_should_be(self):
+        package = self.import_package()
+        steps = (1e-4, 1e-4, 1e-7, 1e-6, 1e-2, 1e-1, 1e-4, 1e-5)
+        wheelset = package.Wheelset(estimate=False)
+        rest = wheelset.solve(axle_load=1.2e5, **STATE)
+        state = {**STATE, "z": rest.z[0], "roll": rest.roll, "z_rate": 0.0, "roll_rate": 0.0}
+        found = wheelset.solve(derivatives=True, **state).derivatives
+        self.assertEqual(found.shape, (2, 6, 8))
+        for k, (name, step) in enumerate(zip(COORDINATES, steps)):
+            up, down = (wheelset.solve(**{**state, name: state[name] + way * step})
+                        for way in (1, -1))
+            slope = np.hstack([up.force - down.force, up.moment - down.moment]) / (2.0 * step)
+            for side in range(2):
+                for rows in (slice(0, 3), slice(3, 6)):
+                    size = abs(slope[side, rows]).max()
+                    # Kinks of sliding elements are within these steps.
+                    self.assertLess(abs(found[side, rows, k] - slope[side, rows]).max(),
+                                    2e-2 * size, (name, side))
+
+    def test_what_a_contact_gives_over_penetration_and_creepages(self):
+        package = self.import_package()
+        y = np.linspace(-12.0, 12.0, 241)
+        contact = package.Contact(estimate=False)
+        contact.set_gap(y, 2e-3 * y**2, np.full(y.shape, 1.1e-3))
+        asked = {"penetration": 0.07, "creepage": (8e-4, -5e-4, 1e-4)}
+        found = contact.solve(derivatives=True, **asked)
+        self.assertIsNone(contact.solve(**asked).derivatives)
+        self.assertEqual(found, contact.solve(**asked))
+        self.assertNotIn("derivatives", found.to_pandas())
+        slopes = found.derivatives
+        self.assertAlmostEqual(slopes[0, 0] * 0.07 / found.load, 1.5, delta=1e-5)
+        self.assertEqual(slopes[0, 1:].tolist(), [0.0] * 3)
+        for j, step in enumerate((1e-6, 1e-6, 1e-7), 1):
+            ends = []
+            for way in (1, -1):
+                creepage = list(asked["creepage"])
+                creepage[j - 1] += way * step
+                one = contact.solve(penetration=0.07, creepage=creepage)
+                ends.append(np.array([one.fx, one.fy, one.mz]))
+            slope = (ends[0] - ends[1]) / (2.0 * step)
+            self.assertLess(abs(slopes[1:, j] - slope).max(), 2e-2 * abs(slope).max())
+
+    def test_they_do_not_change_what_comes_after(self):
+        package = self.import_package()
+        with package.Wheelset() as asked, package.Wheelset() as silent:
+            for i in range(5):
+                state = {**STATE, "y": 1.0 + 0.01 * i, "axle_load": 1.2e5, "warm_start": True}
+                first = asked.solve(derivatives=True, **state)
+                second = silent.solve(**state)
+                self.assertLess(abs(first.force - second.force).max(), 1e-7 * 6e4)
+                self.assertEqual(first.word, second.word)
+
+    def test_what_has_none_is_refused(self):
+        package = self.import_package()
+        with self.assertRaisesRegex(package.FaststripError, "methods that stay the same"):
+            package.Wheelset(normal="auto").solve(axle_load=1.2e5, derivatives=True)
+        contact = package.Contact(normal="auto")
+        y = np.linspace(-10.0, 10.0, 101)
+        contact.set_gap(y, 2e-3 * y**2, np.full(y.shape, 1e-3))
+        with self.assertRaisesRegex(package.FaststripError, "methods that stay the same"):
+            contact.solve(load=5e4, derivatives=True)
+        with self.assertRaisesRegex(package.FaststripError, "derivatives"):
+            package.Wheelset().solve(axle_load=1.2e5, derivatives=2.0)
+
+    def test_other_methods_have_them_too(self):
+        package = self.import_package()
+        for normal, tangential in (("hertz", "polach"), ("strip", "fastsim"), ("hertz", "fastsim"),
+                                   ("equal_area", "fastsim"), ("kpec", "faststrip"),
+                                   ("strip", "none")):
+            wheelset = package.Wheelset(normal=normal, tangential=tangential, estimate=False)
+            rest = wheelset.solve(axle_load=1.2e5, **STATE)
+            state = {**STATE, "z": rest.z[0], "roll": rest.roll}
+            found = wheelset.solve(derivatives=True, **state).derivatives
+            self.assertFalse(np.isnan(found).any(), (normal, tangential))
+            up, down = (wheelset.solve(**{**state, "z": state["z"] + step})
+                        for step in (2e-4, -2e-4))
+            for side in range(2):
+                slope = (up.force[side, 2] - down.force[side, 2]) / 4e-4
+                self.assertTrue(math.isclose(found[side, 2, 1], slope, rel_tol=5e-3),
+                                (normal, tangential, found[side, 2, 1], slope))
