@@ -42,6 +42,7 @@ GROUPS = (
         ("Limitations and errors", "docs/errors.md"),
         ("From FASTSIM or CONTACT", "docs/migration.md"),
         ("Embedding", "docs/embedding.md"),
+        ("Traps for a host", "docs/traps.md"),
         API)),
     ("Behind it", (
         ("Method", "docs/method.md"),

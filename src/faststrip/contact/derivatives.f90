@@ -51,6 +51,7 @@ contains
         type(environment_t) :: environment
         type(contact_result_t) :: near
         type(demand_t) :: demand
+        type(status_t) :: again
         type(creepage_t) :: creepage
         real(wp) :: tolerance
         logical :: estimate
@@ -75,6 +76,16 @@ contains
         case%strip_tolerance = finest
         call find_near(workspace, normal, tangential, result%normal%penetration, case, near, &
                        derivatives, status)
+        if (is_error(status)) then
+            ! The solution as it was.
+            derivatives = 0.0_wp
+            case%stays = .false.
+            case%creepage = creepage
+            case%penetration = result%normal%penetration
+            call find_pressures(workspace, case, normal, near, again)
+            if (.not. is_error(again) .and. case%methods%tangential /= tangential_none) &
+                call add_forces(workspace, case, tangential, near, again)
+        end if
         case%demand_t = demand
         case%creepage = creepage
         case%strip_tolerance = tolerance

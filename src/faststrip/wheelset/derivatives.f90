@@ -117,6 +117,8 @@ contains
         call solve(state, .not. is_error(there_is_none), here)
         if (failed() .or. is_error(there_is_none)) then
             if (is_error(there_is_none)) status = there_is_none
+            ! The solution as it was.
+            call try_height(model, workspace, as_solved(state), side, state%z, near)
             return
         end if
         do i = 1, n_coordinates
@@ -135,13 +137,12 @@ contains
     contains
 
         ! A state as it was solved.
-        type(wheelset_state_t) function seen(there)
+        type(wheelset_state_t) function as_solved(there)
             type(wheelset_state_t), intent(in) :: there
 
-            seen = there
-            if (workspace%is_reversed) seen = reversed_state(there)
-            seen = as_right(seen, side)
-        end function seen
+            as_solved = there
+            if (workspace%is_reversed) as_solved = reversed_state(there)
+        end function as_solved
 
         ! A wheel between what was solved and what it is.
         subroutine turn_back(there)
@@ -156,13 +157,11 @@ contains
             logical, intent(in) :: outlined ! is the outline of the wheel that of the state?
             real(wp), intent(out) :: found(6)
 
-            type(wheelset_state_t) :: as_solved
             real(wp) :: touch
 
-            as_solved = there
-            if (workspace%is_reversed) as_solved = reversed_state(there)
-            if (.not. outlined) call set_outline(model, workspace, as_solved, side, touch, status)
-            call try_height(model, workspace, as_solved, side, there%z, near, finest)
+            if (.not. outlined) &
+                call set_outline(model, workspace, as_solved(there), side, touch, status)
+            call try_height(model, workspace, as_solved(there), side, there%z, near, finest)
             call turn_back(near)
             found = [near%force, near%moment]
         end subroutine solve
@@ -172,8 +171,8 @@ contains
             type(wheelset_state_t), intent(in) :: moving
             real(wp), intent(out) :: found(6)
 
-            call move_wheel(model, model%pair(side), workspace%wheel(side), seen(moving), state%z, &
-                            near)
+            call move_wheel(model, model%pair(side), workspace%wheel(side), &
+                            as_right(as_solved(moving), side), state%z, near)
             call turn_back(near)
             found = [near%force, near%moment]
             call turn_back(near)

@@ -26,7 +26,7 @@ contains
         real(wp), intent(in) :: tolerance               !! relative size of the last step
         type(contact_strips_t), intent(inout) :: strips !! reserved; those of the solution
         type(normal_result_t), intent(inout) :: result  !! its figures
-        logical, intent(out) :: found                   !! false: there is none like the last one
+        logical, intent(out) :: found                   !! is there one like the last one?
 
         type(patches_t) :: patches
         real(wp) :: correction
