@@ -504,9 +504,10 @@ class Contact:
             *(_estimates_of(figures) if figures.is_estimated else _NO_ESTIMATES),
             *(_force_errors_of(figures) if figures.forces_are_estimated else _NO_FORCE_ERRORS),
             *(self._taken(figures) if figures.n_steps else (None, None, ())),
-            limitation_words(figures.limitations))
-        return Result(*found, slopes(self._call, library.faststrip_get_derivatives, (4, 4))
-                      if flag("derivatives", derivatives) else None)
+            limitation_words(figures.limitations),
+            slopes(self._call, library.faststrip_get_derivatives, (4, 4))
+            if flag("derivatives", derivatives) else None)
+        return Result(*found)
 
     def _taken(self, figures: Figures) -> Tuple[Optional[float], Optional[bool], Tuple[Step, ...]]:
         """What came of auto: estimated error of the target, is it met, the steps."""

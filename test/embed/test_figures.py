@@ -326,7 +326,8 @@ class Figures(HostTest):
                 # Words of a limitation are not handed on.
                 found["message", number, step, 0] = self.wanted["message", number, step, 0]
                 for name, value in vars(result).items():
-                    if name not in ("word", "n_strips", "steps", "limitations", *TAKEN):
+                    if name not in ("word", "n_strips", "steps", "limitations", "derivatives",
+                                    *TAKEN):
                         found[name, number, step, 0] = 0.0 if value is None else value
                 found["limitations", number, step, 0] = float(sum(
                     1 << status for status in range(1, 12)

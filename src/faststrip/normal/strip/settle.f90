@@ -21,7 +21,7 @@ module faststrip_normal_strip_settle
     implicit none
     private
 
-    public :: level_t, settling_t, settle_together, settle_in_turn
+    public :: solve_near, level_t, settling_t, settle_together, settle_in_turn
 
     ! Tuned [tries]. Origin: chosen; what fails four times does not converge.
     integer, parameter :: max_couplings = 4  ! so often strips and ends are tried together
@@ -258,6 +258,48 @@ contains
         workspace%carried%known = .false.
         workspace%newton%kept = .false.
     end subroutine take_back
+
+    !> A neighbour of the last solution, for derivatives: the same patches, strips and edges, solved
+    !> to the last digits. So it differs smoothly from it: nothing is looked for, and no edge
+    !> follows the gap.
+    pure subroutine solve_near(workspace, compliance, demand, tolerance, strips, result, found)
+        type(strip_workspace_t), intent(inout) :: workspace !! with a gap near that of the last
+                                                            !! solution
+        real(wp), intent(in) :: compliance              !! H of eq. (4), 1/MPa
+        type(demand_t), intent(in) :: demand            !! load or penetration
+        real(wp), intent(in) :: tolerance               !! relative size of the last step
+        type(contact_strips_t), intent(inout) :: strips !! reserved; those of the solution
+        type(normal_result_t), intent(inout) :: result  !! its figures
+        logical, intent(out) :: found                   !! is there one like the last one?
+
+        type(patches_t) :: patches
+        real(wp) :: correction
+        integer :: n, outcome
+        logical :: graded
+
+        found = workspace%old%n > 0
+        if (.not. found) return
+        patches = workspace%old
+        graded = workspace%graded
+        workspace%graded = .false.
+        call position_strips(workspace, patches, n)
+        workspace%strips%penetration = workspace%old_penetration/workspace%old_correction
+        call converge(workspace, compliance, demand, tolerance, .false., patches, result%cost, &
+                      outcome)
+        workspace%graded = graded
+        found = outcome == converged
+        if (.not. found) return
+        call remember(workspace, patches)
+        call hand_over(workspace%strips, patches, strips)
+        correction = correction_of(strips%y_left(:n), strips%y_right(:n))
+        associate (penetration => workspace%strips%penetration)
+            call summarize(strips, workspace%curve%h_lowest + correction*penetration, correction, &
+                           result)
+            workspace%old_load = result%load
+            workspace%old_penetration = penetration*correction
+            workspace%old_correction = correction
+        end associate
+    end subroutine solve_near
 
     !> Everything but patches and penetration as at the start; share the strips.
     pure subroutine begin(level, settling)

@@ -29,7 +29,7 @@ module faststrip_normal_strip
                                             name_limitations, name_steps
     use faststrip_normal_strips, only: contact_strips_t, mirror_strips
     use faststrip_normal_strip_ends, only: overlap_left
-    use faststrip_normal_strip_near, only: solve_near
+    use faststrip_normal_strip_settle, only: solve_near
     use faststrip_normal_strip_levels, only: strip_options_t, strips_auto, strips_auto_most, &
                                              solve_by_levels
     use faststrip_normal_strip_patches, only: fewest_strips
