@@ -10,25 +10,29 @@ COORDINATES = ("y", "z", "roll", "yaw", "y_rate", "z_rate", "roll_rate", "yaw_ra
 STATE = {"y": 1.0, "yaw": 2e-3, "speed": 2e4, "y_rate": 30.0, "yaw_rate": -4e-3}
 
 
+# Steps of differences, and how far apart they may be from derivatives, of the largest of a column:
+# kinks of sliding elements are within these steps.
+STEPS = (1e-4, 1e-4, 1e-7, 1e-6, 1e-2, 1e-1, 1e-4, 1e-5)
+APART = (4e-3, 2e-4, 3e-4, 1e-4, 5e-6, 1e-6, 1e-5, 3e-6)
+
+
 class Derivatives(HostTest):
     def test_columns_and_rows_are_where_they_should_be(self):
         package = self.import_package()
-        steps = (1e-4, 1e-4, 1e-7, 1e-6, 1e-2, 1e-1, 1e-4, 1e-5)
         wheelset = package.Wheelset(estimate=False)
         rest = wheelset.solve(axle_load=1.2e5, **STATE)
         state = {**STATE, "z": rest.z[0], "roll": rest.roll, "z_rate": 0.0, "roll_rate": 0.0}
         found = wheelset.solve(derivatives=True, **state).derivatives
         self.assertEqual(found.shape, (2, 6, 8))
-        for k, (name, step) in enumerate(zip(COORDINATES, steps)):
+        for k, (name, step, apart) in enumerate(zip(COORDINATES, STEPS, APART)):
             up, down = (wheelset.solve(**{**state, name: state[name] + way * step})
                         for way in (1, -1))
             slope = np.hstack([up.force - down.force, up.moment - down.moment]) / (2.0 * step)
             for side in range(2):
                 for rows in (slice(0, 3), slice(3, 6)):
                     size = abs(slope[side, rows]).max()
-                    # Kinks of sliding elements are within these steps.
                     self.assertLess(abs(found[side, rows, k] - slope[side, rows]).max(),
-                                    2e-2 * size, (name, side))
+                                    apart * size, (name, side))
 
     def test_what_a_contact_gives_over_penetration_and_creepages(self):
         package = self.import_package()
@@ -51,7 +55,7 @@ class Derivatives(HostTest):
                 one = contact.solve(penetration=0.07, creepage=creepage)
                 ends.append(np.array([one.fx, one.fy, one.mz]))
             slope = (ends[0] - ends[1]) / (2.0 * step)
-            self.assertLess(abs(slopes[1:, j] - slope).max(), 2e-2 * abs(slope).max())
+            self.assertLess(abs(slopes[1:, j] - slope).max(), 2e-3 * abs(slope).max())
 
     def test_they_do_not_change_what_comes_after(self):
         package = self.import_package()
@@ -60,8 +64,25 @@ class Derivatives(HostTest):
                 state = {**STATE, "y": 1.0 + 0.01 * i, "axle_load": 1.2e5, "warm_start": True}
                 first = asked.solve(derivatives=True, **state)
                 second = silent.solve(**state)
-                self.assertLess(abs(first.force - second.force).max(), 1e-7 * 6e4)
+                self.assertLess(abs(first.force - second.force).max(), 3e-6)
                 self.assertEqual(first.word, second.word)
+
+    def test_friction_that_falls_with_slip(self):
+        package = self.import_package()
+        friction = package.Friction("linear", kinetic_share=0.5, half_slip_speed=300.0)
+        wheelset = package.Wheelset(friction=friction, estimate=False)
+        rest = wheelset.solve(axle_load=1.2e5, **STATE)
+        state = {**STATE, "z": rest.z[0], "roll": rest.roll}
+        found = wheelset.solve(derivatives=True, **state).derivatives
+        plain = package.Wheelset(estimate=False).solve(derivatives=True, **state).derivatives
+        self.assertGreater(abs(found[:, 1, 4] / plain[:, 1, 4] - 1.0).min(), 1e-3)
+        for k, name in ((4, "y_rate"), (7, "yaw_rate")):
+            up, down = (wheelset.solve(**{**state, name: state[name] + way * STEPS[k]})
+                        for way in (1, -1))
+            slope = (up.force - down.force) / (2.0 * STEPS[k])
+            for side in range(2):
+                self.assertLess(abs(found[side, :3, k] - slope[side]).max(),
+                                1e-5 * abs(slope[side]).max())
 
     def test_what_has_none_is_refused(self):
         package = self.import_package()
@@ -89,5 +110,5 @@ class Derivatives(HostTest):
                         for step in (2e-4, -2e-4))
             for side in range(2):
                 slope = (up.force[side, 2] - down.force[side, 2]) / 4e-4
-                self.assertTrue(math.isclose(found[side, 2, 1], slope, rel_tol=5e-3),
+                self.assertTrue(math.isclose(found[side, 2, 1], slope, rel_tol=3e-4),
                                 (normal, tangential, found[side, 2, 1], slope))
