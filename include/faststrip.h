@@ -385,6 +385,10 @@ typedef struct faststrip_wheelset_setup {
     double rail_distance; /* distance of the origins of the rails' profiles, not the gauge; 0: the
                            * gauge */
     double inclination;   /* of both rails */
+    double damping;       /* of contacts, s/mm: forces grow by this share of the approach rate, but
+                           * never pull; that of Hunt and Crossley, 3/2 alpha; 0: none */
+    double speed_floor;   /* of rolling speeds, mm/s: well below it friction grows with the slip
+                           * velocities, so that it vanishes at rest; 0: none */
 } faststrip_wheelset_setup;
 
 /* A profile, also of a left wheel or rail as one of the right side: a name, of wheels s1002, cone20
@@ -494,6 +498,8 @@ typedef struct faststrip_wheelset_state {
                         * FASTSTRIP_LOCKED_WHEELS */
     double curvature;  /* of the track, positive to the right, 1/mm */
     faststrip_rail_state rail[2]; /* right, left */
+    double pitch_rate_difference; /* of wheels that rotate independently: left less right, rad/s;
+                                   * pitch_rate is the mean of both */
 } faststrip_wheelset_state;
 
 enum faststrip_demand {

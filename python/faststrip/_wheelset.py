@@ -60,7 +60,7 @@ class Setup(ctypes.Structure):
 
     _fields_ = [("size", c_size_t), *members(
         c_double, "radius_right", "radius_left", "back_spacing", "tread_line", "gauge",
-        "gauge_depth", "rail_distance", "inclination")]
+        "gauge_depth", "rail_distance", "inclination", "damping", "speed_floor")]
 
 
 class Rail(ctypes.Structure):
@@ -74,7 +74,8 @@ class State(ctypes.Structure):
 
     _fields_ = [*members(c_double, "y", "z", "roll", "yaw", "speed", "y_rate", "z_rate",
                          "roll_rate", "yaw_rate", "pitch_rate", "curvature"),
-                *members(Rail, "right_rail", "left_rail")]
+                *members(Rail, "right_rail", "left_rail"),
+                ("pitch_rate_difference", c_double)]
 
 
 class Demand(ctypes.Structure):
@@ -336,6 +337,12 @@ class Wheelset:
         0.025 (1:40) for names; a Profile must have one: 0 where its points lie as in the track.
     cant : float, optional
         The same, by its older name.
+    damping : float
+        Of contacts, s/mm: forces grow by this share of the approach rate, never below 0; that of
+        Hunt and Crossley, 3/2 alpha.
+    speed_floor : float
+        Of rolling speeds, mm/s: well below it friction grows with the slip velocities, so that it
+        vanishes at rest.
     mu : float
         Coefficient of friction.
     friction, material, normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, \
@@ -356,7 +363,8 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
                  radius_left: Optional[float] = None, back_spacing: Optional[float] = None,
                  tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
                  rail_distance: Optional[float] = None, inclination: Optional[float] = None,
-                 cant: Optional[float] = None, mu: float = 0.3,
+                 cant: Optional[float] = None, damping: float = 0.0, speed_floor: float = 0.0,
+                 mu: float = 0.3,
                  friction: Friction = CONSTANT, material: Material = STEEL, normal: str = "strip",
                  tangential: str = "faststrip", strips_per_patch: int = 15,
                  points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
@@ -376,6 +384,8 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
                                         back_spacing, tread_line, gauge, gauge_depth,
                                         rail_distance, inclination, cant)
+        setup.damping = number("damping", damping)
+        setup.speed_floor = number("speed_floor", speed_floor)
         handle = Handle(library.faststrip_wheelset_free)
         told(library.faststrip_wheelset_new, ctypes.byref(setup), wheels, rails,
              ctypes.byref(case), ctypes.byref(handle.handle))
@@ -397,7 +407,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
     def solve(self, *, y: float = 0.0, z: Optional[float] = None, roll: Optional[float] = None,
               yaw: float = 0.0, speed: float = 0.0, y_rate: float = 0.0, z_rate: float = 0.0,
               roll_rate: float = 0.0, yaw_rate: float = 0.0,
-              pitch_rate: Optional[float] = None,
+              pitch_rate: Optional[float] = None, pitch_rate_difference: float = 0.0,
               curvature: float = 0.0, load: Union[None, float, Tuple[float, float]] = None,
               axle_load: Optional[float] = None, roll_moment: float = 0.0, wheels: str = "both",
               at_rest: bool = False, warm_start: bool = False, right_rail: RailState = IN_PLACE,
@@ -423,6 +433,8 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         roll_rate, yaw_rate, pitch_rate : float
             rad/s; pitch_rate is negative for rolling ahead, not given it is that of pure rolling
             at the mean nominal radius, 0 is that of locked wheels.
+        pitch_rate_difference : float
+            Of wheels that rotate independently: left less right, rad/s; pitch_rate is the mean.
         curvature : float
             Of the track, positive to the right, 1/mm.
         load : float, or two floats
@@ -476,7 +488,8 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         given = (y, z or 0.0, roll or 0.0, yaw, speed, y_rate, z_rate, roll_rate, yaw_rate,
                  pitch_rate_number(pitch_rate), curvature)
         state = State(*numbers([field[0] for field in State._fields_[:len(given)]], given),
-                      rail_of("right_rail", right_rail), rail_of("left_rail", left_rail))
+                      rail_of("right_rail", right_rail), rail_of("left_rail", left_rail),
+                      number("pitch_rate_difference", pitch_rate_difference))
         rows, totals, n = (Row * MOST_CONTACTS)(), Totals(), c_int()
         self._n_contacts = 0
         try:

@@ -24,6 +24,8 @@ module faststrip_command_settings_methods
         character(len=:), allocatable :: wear_source !! what the file names as its source
         real(wp) :: gap_step = standard_gap_step     !! sampling of a gap of two profiles, mm
         real(wp) :: gap_height = standard_gap_height !! largest gap sampled, mm
+        real(wp) :: damping = 0.0_wp     !! of a wheelset's contacts, s/mm
+        real(wp) :: speed_floor = 0.0_wp !! of its rolling speeds, mm/s
         logical :: tolerance_is_given = .false. !! else it does not count beside a budget
         logical :: target_is_given = .false.    !! else it is pmax where no forces are asked for
     end type settings_t
@@ -79,6 +81,8 @@ contains
             case ('budget_us'); wanted%budget_us = value%number
             case ('gap_step_mm'); choice%gap_step = value%number
             case ('gap_height_mm'); choice%gap_height = value%number
+            case ('contact_damping_s_per_mm'); choice%damping = value%number
+            case ('speed_floor_mm_s'); choice%speed_floor = value%number
             case ('wear_file')
                 call read_wear_law(value%text, choice%wear_law, choice%wear_source, status)
                 call fail_on_error(status)

@@ -250,7 +250,13 @@ module faststrip_command_settings_table
         setting_t('numerics', 'gap_step_mm', a_number, 'sampling of the gap of two profiles', &
                   range=above_0, default='0.05'), &
         setting_t('numerics', 'gap_height_mm', a_number, 'largest gap that is sampled', &
-                  range=above_0, default='0.6')]
+                  range=above_0, default='0.6'), &
+        setting_t('numerics', 'contact_damping_s_per_mm', a_number, &
+                  'of a wheelset: share by which forces grow with the approach rate', &
+                  range=from_0, default='0'), &
+        setting_t('numerics', 'speed_floor_mm_s', a_number, &
+                  'of a wheelset: rolling speed below which friction grows with slip velocities', &
+                  range=from_0, default='0')]
 
     type(setting_t), parameter :: of_sweep(*) = [ &
         setting_t('sweep', 'shifts_mm', a_list, 'lateral shifts', most=most_shifts, &
@@ -265,7 +271,7 @@ module faststrip_command_settings_table
 
     !> How many numbers a state has.
     !> Given: as many as rows.
-    integer, parameter :: n_state = 25
+    integer, parameter :: n_state = 26
 
     ! The numbers of a state in the order of `take_state`, after the side.
     type(setting_t), parameter :: of_state(1 + n_state) = [ &
@@ -311,10 +317,13 @@ module faststrip_command_settings_table
                   default='0'), &
         setting_t('state', 'rail_left_vz_mm_s', a_number, 'the same, down', default='0'), &
         setting_t('state', 'rail_left_roll_rate_rad_s', a_number, 'rate of its roll', &
-                  default='0')]
+                  default='0'), &
+        setting_t('state', 'pitch_rate_difference_rad_s', a_number, &
+                  'of wheels that rotate independently: left less right; the pitch rate is their' &
+                  // ' mean', default='0')]
 
     !> Their names, in tables and in the group `state`.
-    character(len=26), parameter :: state_names(n_state) = of_state(2:)%key
+    character(len=27), parameter :: state_names(n_state) = of_state(2:)%key
 
     !> The table.
     type(setting_t), parameter :: settings(*) = [ &

@@ -6,7 +6,7 @@ module faststrip_command_wheelset_case
     use faststrip_contact_methods, only: normal_table, tangential_table, normal_auto, &
                                          normal_method_name, tangential_method_name
     use faststrip_wheelset_types, only: wheelset_model_t
-    use faststrip_wheelset_solve, only: make_wheelset
+    use faststrip_wheelset_solve, only: make_wheelset, set_damping
     use faststrip_command_program_console, only: fail_on_error
     use faststrip_command_settings_case_file, only: read_settings
     use faststrip_command_settings_friction, only: read_friction_group
@@ -76,6 +76,8 @@ contains
                                bodies%track, case%contact_case_t, model, status)
         end associate
         call fail_on_error(status, path)
+        call set_damping(model, case%damping, case%speed_floor, status)
+        call fail_on_error(status, path)
         if (case%gap_height_is_given) model%gap_height = case%gap_height
     end subroutine make_model
 
@@ -91,6 +93,10 @@ contains
         if (.not. in_core(tangential_table, case%methods%tangential)) &
             call refuse(group, 'tangential', 'must be a method of the library for a table', &
                         trim(tangential_method_name(case%methods%tangential)))
+        if (is_set(group, 'contact_damping_s_per_mm')) &
+            call refuse(group, 'contact_damping_s_per_mm', 'must not be given for a table', '')
+        if (is_set(group, 'speed_floor_mm_s')) &
+            call refuse(group, 'speed_floor_mm_s', 'must not be given for a table', '')
         if (case%smoothing > 0.0_wp) &
             call refuse(group, 'smoothing_um', 'must not be given for a table; smooth its ' // &
                         'profiles (faststrip profile --smooth-wavelength)', '')

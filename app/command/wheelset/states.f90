@@ -21,7 +21,8 @@ module faststrip_command_wheelset_states
     integer, parameter :: n_needed = 6, n_rail = 6
     integer, parameter :: at_y = 1, at_roll = 2, at_yaw = 3, at_speed = 4, at_pitch = 5, &
                           at_load = 6, at_z = 7, at_vy = 8, at_vz = 9, at_roll_rate = 10, &
-                          at_yaw_rate = 11, at_curve = 12, at_moment = 13, at_rail(2) = [14, 20]
+                          at_yaw_rate = 11, at_curve = 12, at_moment = 13, at_rail(2) = [14, 20], &
+                          at_difference = 26
 
     !> A state as it was given.
     type :: given_state_t
@@ -129,6 +130,7 @@ contains
         state%z_rate = number(at_vz)
         state%roll_rate = number(at_roll_rate)
         state%yaw_rate = number(at_yaw_rate)
+        state%pitch_rate_difference = number(at_difference)
         if (given%is_given(at_curve)) state%curvature = 1.0_wp/number(at_curve)
         do i = side_right, side_left
             state%rail(i) = rail(at_rail(i))

@@ -19,7 +19,7 @@ module faststrip_geometry_wheelset_state
 
     public :: wheelset_state_t, wheelset_axes_t, rail_state_t, pure_rolling
     public :: mirrored_state, reversed_state, rolling_state, resting_state, is_at_rest, &
-              check_state, wheelset_axes, rigid_creepage, rail_velocity, cross
+              check_state, wheelset_axes, rigid_creepage, approach_rate, rail_velocity, cross
 
     ! Roll, yaw and contact angles beyond are refused, rad: lines of a wheel that is turned farther
     ! have no meaning.
@@ -51,7 +51,10 @@ module faststrip_geometry_wheelset_state
         real(wp) :: z_rate = 0.0_wp     !! mm/s
         real(wp) :: roll_rate = 0.0_wp  !! about the wheelset's x axis, rad/s
         real(wp) :: yaw_rate = 0.0_wp   !! relative to the track, about the wheelset's z axis, rad/s
-        real(wp) :: pitch_rate = pure_rolling !! about the axle, negative for rolling ahead, rad/s
+        real(wp) :: pitch_rate = pure_rolling !! about the axle, negative for rolling ahead, rad/s;
+                                              !! the mean of both wheels
+        real(wp) :: pitch_rate_difference = 0.0_wp
+            !! left less right, of wheels that rotate independently, rad/s
         real(wp) :: curvature = 0.0_wp  !! of the track, positive to the right, 1/mm
         type(rail_state_t) :: rail(2)   !! right, left
     end type wheelset_state_t
@@ -77,6 +80,7 @@ contains
         mirrored%y_rate = -state%y_rate
         mirrored%roll_rate = -state%roll_rate
         mirrored%yaw_rate = -state%yaw_rate
+        mirrored%pitch_rate_difference = -state%pitch_rate_difference
         mirrored%curvature = -state%curvature
         mirrored%rail = mirrored_rail(state%rail(2:1:-1))
     end function mirrored_state
@@ -91,6 +95,7 @@ contains
         reversed%speed = -state%speed
         reversed%yaw_rate = -state%yaw_rate
         reversed%pitch_rate = -state%pitch_rate
+        reversed%pitch_rate_difference = -state%pitch_rate_difference
     end function reversed_state
 
     !> The state with the pitch rate of pure rolling where none was said.
@@ -121,7 +126,8 @@ contains
         associate (rail => state%rail)
             is_at_rest = .not. any(abs([state%speed, state%y_rate, state%z_rate, &
                                         state%roll_rate, state%yaw_rate, state%pitch_rate, &
-                                        rail%y_rate, rail%z_rate, rail%roll_rate]) > 0.0_wp)
+                                        state%pitch_rate_difference, rail%y_rate, rail%z_rate, &
+                                        rail%roll_rate]) > 0.0_wp)
         end associate
     end function is_at_rest
 
@@ -153,6 +159,8 @@ contains
         call check_value('roll_rate', state%roll_rate, huge(1.0_wp), 'rad/s', status)
         call check_value('yaw_rate', state%yaw_rate, huge(1.0_wp), 'rad/s', status)
         call check_value('pitch_rate', state%pitch_rate, huge(1.0_wp), 'rad/s', status)
+        call check_value('pitch_rate_difference', state%pitch_rate_difference, huge(1.0_wp), &
+                         'rad/s', status)
         call check_value('curvature', state%curvature, 1.0_wp, '1/mm', status)
         do i = 1, size(state%rail)
             associate (rail => state%rail(i))
@@ -207,12 +215,14 @@ contains
 
     !> Creepages of rigid bodies at a point of the wheel: velocity of the rail relative to the wheel
     !> over the rolling speed, in the contact frame, turned by the contact angle about x. The
-    !> rolling speed is the mean of that of travel and that of the wheel's surface about its axle.
+    !> rolling speed is the mean of that of travel and that of the wheel's surface about its axle,
+    !> the right wheel's.
     !>
     !> Where a wheelset starts or stops the ratio has no bound, but forces have a limit: all slides,
     !> and only the proportions of the velocities count. So the speed is at least a millionth of
-    !> what slides: creepages times the speed are always the velocities.
-    pure subroutine rigid_creepage(state, axes, point, angle, creepage, speed, moving)
+    !> what slides: creepages times the speed are always the velocities. With a floor the speed is
+    !> the root of the sum of its square and the floor's, so that forces vanish with the velocities.
+    pure subroutine rigid_creepage(state, axes, point, angle, creepage, speed, moving, floor)
         type(wheelset_state_t), intent(in) :: state  !! mm, rad, s; its pitch rate is said
         type(wheelset_axes_t), intent(in) :: axes    !! of the state
         real(wp), intent(in) :: point(3)             !! of the wheel, in the track, mm
@@ -220,11 +230,12 @@ contains
         type(creepage_t), intent(out) :: creepage    !! zero if nothing moves; -, -, rad/mm
         real(wp), intent(out) :: speed               !! rolling speed, mm/s
         real(wp), intent(in), optional :: moving(3)  !! velocity of the rail there, mm/s
+        real(wp), intent(in), optional :: floor      !! of the speed, mm/s
 
         real(wp) :: arm(3), pitch(3), turning(3), travel(3), velocity(3), slip(3), fastest
 
         arm = point - axes%centre
-        pitch = state%pitch_rate*axes%axle
+        pitch = (state%pitch_rate - 0.5_wp*state%pitch_rate_difference)*axes%axle
         ! The track itself turns in a curve, with all that is on it.
         turning = state%roll_rate*axes%ahead + state%yaw_rate*axes%down &
                   + [0.0_wp, 0.0_wp, state%speed*state%curvature]
@@ -236,6 +247,7 @@ contains
         associate (rolled => cross(pitch, arm))
             speed = 0.5_wp*(abs(travel(1)) + abs(rolled(1)))
         end associate
+        if (present(floor)) speed = hypot(speed, floor)
         creepage = creepage_t()
         if (present(moving)) velocity = velocity - moving
         slip = -[velocity(1), velocity(2)*cos(angle) + velocity(3)*sin(angle), &
@@ -251,6 +263,23 @@ contains
         end if
         creepage = creepage_t(slip(1), slip(2), slip(3))
     end subroutine rigid_creepage
+
+    !> How fast a wheel and its rail approach each other at a point, along the normal, mm/s. Neither
+    !> travel nor pitch count: a rail is the same along x, and a wheel all around.
+    pure real(wp) function approach_rate(state, axes, point, angle, moving) result(rate)
+        type(wheelset_state_t), intent(in) :: state !! mm, rad, s
+        type(wheelset_axes_t), intent(in) :: axes   !! of the state
+        real(wp), intent(in) :: point(3)            !! of the wheel, in the track, mm
+        real(wp), intent(in) :: angle               !! contact angle, rad
+        real(wp), intent(in) :: moving(3)           !! velocity of the rail there, mm/s
+
+        real(wp) :: velocity(3)
+
+        velocity = [0.0_wp, state%y_rate, state%z_rate] - moving &
+                   + cross(state%roll_rate*axes%ahead + state%yaw_rate*axes%down, &
+                           point - axes%centre)
+        rate = velocity(3)*cos(angle) - velocity(2)*sin(angle)
+    end function approach_rate
 
     !> Velocity of a point of a rail, mm/s.
     pure function rail_velocity(rail, arm) result(velocity)

@@ -34,6 +34,7 @@ module faststrip_interop_wheelset_handle
         type(wheelset_result_t) :: result
         logical :: has(2) = .false. !! which wheels the result is of
         type(rail_state_t) :: rail(2) !! right, left: of the F77 interface, which sets them once
+        real(wp) :: pitch_rate_difference = 0.0_wp !! left less right, rad/s; likewise
         type(status_t) :: status      !! of the last call
         type(doubts_t) :: doubts      !! what was outside of practice in the last state
         real(wp) :: derivatives(6, 8, 2) = 0.0_wp
@@ -110,6 +111,7 @@ contains
         to%result = from%result
         to%has = from%has
         to%rail = from%rail
+        to%pitch_rate_difference = from%pitch_rate_difference
         to%doubts = from%doubts
         call clear_status(to%status)
     end subroutine copy_wheelset

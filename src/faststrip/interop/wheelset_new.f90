@@ -16,7 +16,7 @@ module faststrip_interop_wheelset_new
     use faststrip_interop_register, only: enter_register, kind_wheelset
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, allocate_wheelset
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_wheelset_solve, only: make_wheelset, reserve_wheelset
+    use faststrip_wheelset_solve, only: make_wheelset, set_damping, reserve_wheelset
     use faststrip_wheelset_types, only: side_right, side_left
     implicit none
     private
@@ -61,14 +61,15 @@ contains
     end function default_dimensions
 
     !> Make a wheelset on its track. The one allocation.
-    subroutine new_wheelset(wheels, rails, dimensions, case, number, status)
+    subroutine new_wheelset(wheels, rails, dimensions, case, number, status, damping, speed_floor)
         type(profile_source_t), intent(in) :: wheels(2) !! right and left, both as a right wheel
         type(profile_source_t), intent(in) :: rails(2)  !! right and left, both as a right rail
         type(dimensions_t), intent(in) :: dimensions    !! mm
         type(contact_case_t), intent(in) :: case        !! material, friction, methods
         integer(c_intptr_t), intent(out) :: number      !! of the handle; 0 when there is an error
         type(status_t), intent(out) :: status
-            !! those of `make_wheelset`, `reserve_wheelset` and of profiles
+            !! those of `make_wheelset`, `set_damping`, `reserve_wheelset` and of profiles
+        real(c_double), intent(in), optional :: damping, speed_floor !! as `set_damping` has them
 
         type(wheelset_handle_t), pointer :: handle
         type(environment_t) :: environment
@@ -78,6 +79,8 @@ contains
         if (is_error(status)) return
         call hold_environment(environment)
         call fill_handle(wheels, rails, dimensions, case, handle, status)
+        if (present(damping) .and. present(speed_floor) .and. .not. is_error(status)) &
+            call set_damping(handle%model, damping, speed_floor, status)
         call restore_environment(environment)
         if (.not. is_error(status)) &
             call enter_register(c_loc(handle), kind_wheelset, number, status)

@@ -43,8 +43,8 @@ contains
     !> Derivatives of the forces of each wheel on its rail, in the track, and of their moments about
     !> the wheelset's centre, at the last solution: rows Fx, Fy, Fz, N, Mx, My, Mz, N mm; columns y,
     !> z, mm, roll, yaw, rad, and their rates, per s. Strips are solved to the last digits on the
-    !> way. Over the rates of a wheelset that is at rest derivatives are 0: it has no friction
-    !> there; those of a wheel in the air are 0, too.
+    !> way. Over the rates of a wheelset that is at rest, without a floor of the speed,
+    !> derivatives are 0: it has no friction there; those of a wheel in the air are 0, too.
     subroutine find_wheelset_derivatives(model, workspace, wants, result, derivatives, status)
         type(wheelset_model_t), intent(in) :: model                !! made
         type(wheelset_workspace_t), intent(inout) :: workspace     !! of the solution
@@ -127,7 +127,7 @@ contains
         do i = 1, n_coordinates
             derivatives(:, i) = (forces(:, i) - here)/step(i)
         end do
-        if (is_at_rest(state)) return
+        if (is_at_rest(state) .and. .not. model%speed_floor > 0.0_wp) return
         call turn_back(near)
         do i = n_coordinates + 1, 2*n_coordinates
             call move_near(moved(state, i, step(i)), there)

@@ -35,7 +35,7 @@ module faststrip_wheelset_solve
     implicit none
     private
 
-    public :: make_wheelset, reserve_wheelset, solve_wheelset
+    public :: make_wheelset, set_damping, reserve_wheelset, solve_wheelset
 
     ! Tuned [1]: of the load, how near a method comes whose height strips find. Origin: chosen: far
     ! below what methods differ by.
@@ -69,6 +69,35 @@ contains
         call make_wheel_on_rail(wheels(side_left), rails(side_left), left, track, &
                                 model%pair(side_left), status)
     end subroutine make_wheelset
+
+    !> Contact damping of a wheelset, and the floor of its rolling speeds.
+    pure subroutine set_damping(model, damping, speed_floor, status)
+        type(wheelset_model_t), intent(inout) :: model !! changed unless there is an error
+        real(wp), intent(in) :: damping
+            !! share by which forces grow with the approach rate, s/mm; 0: none
+        real(wp), intent(in) :: speed_floor
+            !! below which forces grow with the velocities, mm/s; 0: none
+        type(status_t), intent(out) :: status !! `st_bad_argument`: below 0, or no number
+
+        call check_damping(damping, speed_floor, status)
+        if (is_error(status)) return
+        model%damping = damping
+        model%speed_floor = speed_floor
+    end subroutine set_damping
+
+    pure subroutine check_damping(damping, speed_floor, status)
+        real(wp), intent(in) :: damping, speed_floor
+        type(status_t), intent(out) :: status
+
+        call clear_status(status)
+        if (.not. (damping >= 0.0_wp .and. ieee_is_finite(damping))) then
+            call set_status(status, st_bad_argument, 'contact damping must be at least 0 s/mm, ' &
+                            // 'got ' // number_text(damping))
+        else if (.not. (speed_floor >= 0.0_wp .and. ieee_is_finite(speed_floor))) then
+            call set_status(status, st_bad_argument, 'the floor of the speed must be at least ' // &
+                            '0 mm/s, got ' // number_text(speed_floor))
+        end if
+    end subroutine check_damping
 
     !> Allocate for a model; the only allocation.
     subroutine reserve_wheelset(workspace, model, status)
@@ -131,6 +160,8 @@ contains
 
         result%wheel%n = 0
         result%wheel%solutions = 0
+        call check_damping(model%damping, model%speed_floor, status)
+        if (is_error(status)) return
         call check_demand(state, demand, status)
         if (is_error(status)) return
         call check_workspace(model, workspace, status)

@@ -60,6 +60,10 @@ module faststrip_wheelset_types
         real(wp) :: turn_distance = standard_turn
             !! contacts nearer than this turn towards the angle they will have as one, mm
         real(wp) :: gap_height = standard_height  !! how high gaps are sampled, mm
+        real(wp) :: damping = 0.0_wp
+            !! share by which forces of a contact grow with its approach rate, s/mm; 0: none
+        real(wp) :: speed_floor = 0.0_wp
+            !! of rolling speeds, below which forces grow with the velocities, mm/s; 0: none
     end type wheelset_model_t
 
     !> What is prescribed.
@@ -91,8 +95,9 @@ module faststrip_wheelset_types
         real(wp) :: radius = 0.0_wp                 !! rolling radius, mm
         real(wp) :: speed = 0.0_wp                  !! rolling speed, mm/s
         type(creepage_t) :: creepage                !! -, -, rad/mm
+        real(wp) :: approach_rate = 0.0_wp          !! of wheel and rail along the normal, mm/s
         type(contact_result_t) :: figures           !! of the contact's solution
-        real(wp) :: force(3) = 0.0_wp               !! on the rail, in the track, N
+        real(wp) :: force(3) = 0.0_wp               !! on the rail, in the track, with damping, N
         real(wp) :: force_wheelset(3) = 0.0_wp      !! the same in the wheelset's frame, N
         real(wp) :: moment(3) = 0.0_wp
             !! of it about the wheelset's centre, with the moment about the normal, N mm

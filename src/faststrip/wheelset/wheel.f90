@@ -18,7 +18,8 @@ module faststrip_wheelset_wheel
                                           region_distance, most_regions
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_origin, on_rail_profile
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
-                                                 rail_state_t, rigid_creepage, rail_velocity, &
+                                                 rail_state_t, rigid_creepage, approach_rate, &
+                                                 rail_velocity, &
                                                  cross
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
                                         wheel_workspace_t
@@ -114,8 +115,8 @@ contains
         do i = 1, wheel%n
             associate (contact => wheel%contact(i))
                 case%penetration = contact%figures%normal%penetration
-                call find_motion(pair, state, axes, contact_frame_t(contact%place, contact%angle), &
-                                 case, contact)
+                call find_motion(model, pair, state, axes, &
+                                 contact_frame_t(contact%place, contact%angle), case, contact)
                 if (.not. is_error(contact%status)) then
                     call take_motion(model, contact, case)
                     call solve_contact_forces(workspace%contact(i), case, contact%figures, &
@@ -123,7 +124,7 @@ contains
                 end if
                 if (worse(contact%status, wheel%status)) wheel%status = contact%status
                 if (is_error(contact%status)) return
-                call find_contact_force(axes, contact)
+                call find_contact_force(model, axes, contact)
             end associate
         end do
         call add_contacts(wheel)
@@ -274,13 +275,13 @@ contains
         contact%place = frame%origin
         contact%angle = frame%angle
         contact%rail = on_rail_profile(pair, rail, frame%origin(2:3))
-        call find_motion(pair, state, axes, frame, case, contact)
+        call find_motion(model, pair, state, axes, frame, case, contact)
         if (is_error(contact%status)) return
         call place_on_wheel(pair, axes, frame%origin, contact)
         call take_motion(model, contact, case)
         call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
         if (is_error(contact%status)) return
-        call find_contact_force(axes, contact)
+        call find_contact_force(model, axes, contact)
     end subroutine solve_one
 
     ! The axes of a wheelset that is lowered beyond the state of a wheel's outline.
@@ -292,8 +293,9 @@ contains
         axes%centre(3) = axes%centre(3) + lowered
     end function lowered_axes
 
-    ! Creepages and speed of a contact.
-    subroutine find_motion(pair, state, axes, frame, case, contact)
+    ! Creepages, speed and approach rate of a contact.
+    subroutine find_motion(model, pair, state, axes, frame, case, contact)
+        type(wheelset_model_t), intent(in) :: model
         type(wheel_on_rail_t), intent(in) :: pair
         type(wheelset_state_t), intent(in) :: state
         type(wheelset_axes_t), intent(in) :: axes  ! where the wheelset is
@@ -301,13 +303,15 @@ contains
         type(contact_case_t), intent(in) :: case   ! its penetration is known
         type(wheel_contact_t), intent(inout) :: contact
 
-        real(wp) :: point(3)
+        real(wp) :: point(3), moving(3)
 
         ! Velocities are those of the wheel's surface before it is deformed.
         point = along_normal(frame, case%penetration)
         associate (rail => state%rail(1), c => contact%creepage)
-            call rigid_creepage(state, axes, point, frame%angle, c, contact%speed, &
-                                rail_velocity(rail, frame%origin(2:3) - rail_origin(pair, rail)))
+            moving = rail_velocity(rail, frame%origin(2:3) - rail_origin(pair, rail))
+            call rigid_creepage(state, axes, point, frame%angle, c, contact%speed, moving, &
+                                model%speed_floor)
+            contact%approach_rate = approach_rate(state, axes, point, frame%angle, moving)
             if (max(abs(c%cksi), abs(c%ceta), abs(c%cphi)) >= largest_ratio &
                 .and. case%methods%tangential == tangential_linear) &
                 call set_status(contact%status, st_out_of_range, 'linear forces have no limit ' // &
@@ -315,21 +319,26 @@ contains
         end associate
     end subroutine find_motion
 
-    ! Force and moment of a solved contact on its rail.
-    pure subroutine find_contact_force(axes, contact)
+    ! Force and moment of a solved contact on its rail. Damping is that of Hunt and Crossley,
+    ! N (1 + 3/2 alpha v), never below 0: it vanishes where bodies touch first. Friction is in
+    ! proportion, which is exact where all slides.
+    pure subroutine find_contact_force(model, axes, contact)
+        type(wheelset_model_t), intent(in) :: model
         type(wheelset_axes_t), intent(in) :: axes
         type(wheel_contact_t), intent(inout) :: contact
 
         type(contact_frame_t) :: frame
+        real(wp) :: damped
 
         frame = contact_frame_t(contact%place, contact%angle)
         associate (normal => contact%figures%normal, forces => contact%figures%tangential)
-            contact%force = in_track(frame, [forces%fx, forces%fy, normal%load])
+            damped = max(0.0_wp, 1.0_wp + model%damping*contact%approach_rate)
+            contact%force = damped*in_track(frame, [forces%fx, forces%fy, normal%load])
             contact%force_wheelset = [dot_product(contact%force, axes%ahead), &
                                       dot_product(contact%force, axes%axle), &
                                       dot_product(contact%force, axes%down)]
             contact%moment = cross(frame%origin - axes%centre, contact%force) &
-                             + in_track(frame, [0.0_wp, 0.0_wp, forces%mz])
+                             + damped*in_track(frame, [0.0_wp, 0.0_wp, forces%mz])
         end associate
     end subroutine find_contact_force
 

@@ -31,6 +31,8 @@ module faststrip_interop_c_wheelset
     type, bind(c) :: c_setup_t
         integer(c_size_t) :: size
         type(dimensions_t) :: dimensions !! `radius_right` to `inclination`
+        real(c_double) :: damping        !! s/mm
+        real(c_double) :: speed_floor    !! mm/s
     end type c_setup_t
 
     !> `faststrip_rail_state` of the header.
@@ -43,6 +45,7 @@ module faststrip_interop_c_wheelset
         real(c_double) :: y, z, roll, yaw, speed, y_rate, z_rate, roll_rate, yaw_rate, pitch_rate, &
                           curvature
         type(c_rail_t) :: rail(2)
+        real(c_double) :: pitch_rate_difference
     end type c_state_t
 
     !> `faststrip_profile` of the header.
@@ -93,7 +96,7 @@ contains
         code = status%code
         if (is_error(status)) return
         call c_f_pointer(setup, fields)
-        fields = c_setup_t(c_sizeof(fields), default_dimensions())
+        fields = c_setup_t(c_sizeof(fields), default_dimensions(), 0.0_c_double, 0.0_c_double)
     end function faststrip_default_wheelset
 
     !> Make a wheelset on its track.
@@ -291,6 +294,7 @@ contains
         state%roll_rate = place%roll_rate
         state%yaw_rate = place%yaw_rate
         state%pitch_rate = pitch_rate_of(place%pitch_rate)
+        state%pitch_rate_difference = place%pitch_rate_difference
         state%curvature = place%curvature
         do side = side_right, side_left
             associate (rail => place%rail(side))
@@ -393,7 +397,8 @@ contains
         if (is_error(status)) return
         ! The angle is that of each contact.
         call fill_case(of_case, contact, ignored)
-        call new_wheelset(sources(:, 1), sources(:, 2), fields%dimensions, contact, number, status)
+        call new_wheelset(sources(:, 1), sources(:, 2), fields%dimensions, contact, number, &
+                          status, fields%damping, fields%speed_floor)
     end subroutine make_handle
 
     !> A caller's setup, if it is one.

@@ -65,11 +65,12 @@ module faststrip_interop_f77_wheelset
                                                  pitch_rate_of
     use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
                                               default_dimensions, new_wheelset
+    use faststrip_wheelset_solve, only: set_damping
     use faststrip_wheelset_types, only: wheelset_demand_t, side_right, side_left
     implicit none
     private
 
-    public :: fswdft, fswnew, fsrail, fswslv, fswset, fswstr, fswelm, fswcpy, fswfre
+    public :: fswdft, fswnew, fsrail, fsptch, fsdamp, fswslv, fswset, fswstr, fswelm, fswcpy, fswfre
     public :: n_setup, read_dimensions, read_sources, find_column
 
     ! Lengths of the rows above.
@@ -184,6 +185,40 @@ contains
                        rail_state_t(rail(7), rail(8), rail(9), rail(10), rail(11), rail(12))]
     end subroutine fsrail
 
+    !> CALL FSPTCH(IWORK, DPITCH, INFO)
+    !>
+    !> Say for all further calls of FSWSLV, of wheels that rotate independently, the pitch rate of
+    !> the left wheel less that of the right one; STATE(10) is their mean. FSWNEW sets 0.
+    subroutine fsptch(iwork, difference, info) bind(c, name='fsptch_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
+        real(c_double), intent(in) :: difference     !! rad/s
+        integer(c_int), intent(out) :: info          !! status
+
+        type(wheelset_handle_t), pointer :: handle
+
+        call find_wheelset(number_of(iwork), handle, info)
+        if (info == st_ok) handle%pitch_rate_difference = difference
+    end subroutine fsptch
+
+    !> CALL FSDAMP(IWORK, DAMP, VFLOOR, INFO)
+    !>
+    !> Set contact damping and the floor of the rolling speed: forces grow by DAMP times the
+    !> approach rate, but never pull (Hunt and Crossley, 3/2 alpha); well below VFLOOR friction
+    !> grows with the slip velocities. FSWNEW sets 0, none. After an error both are as they were.
+    subroutine fsdamp(iwork, damping, speed_floor, info) bind(c, name='fsdamp_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
+        real(c_double), intent(in) :: damping        !! s/mm
+        real(c_double), intent(in) :: speed_floor    !! mm/s
+        integer(c_int), intent(out) :: info          !! status
+
+        type(wheelset_handle_t), pointer :: handle
+
+        call find_wheelset(number_of(iwork), handle, info)
+        if (info /= st_ok) return
+        call set_damping(handle%model, damping, speed_floor, handle%status)
+        info = handle%status%code
+    end subroutine fsdamp
+
     !> CALL FSWSLV(IWORK, STATE, IDMND, DMND, M, N, CONT, WRES, INFO)
     !>
     !> Solve the contacts of both wheels, those of the right one first. INFO 110: M below N.
@@ -221,7 +256,7 @@ contains
             demand%axle_load = dmnd(3)
             demand%roll_is_free = idmnd(3) /= 0
             demand%roll_moment = dmnd(4)
-            call wheelset_solve(handle, state_of(state, handle%rail), demand, idmnd(4) /= 0, &
+            call wheelset_solve(handle, state_of(state, handle), demand, idmnd(4) /= 0, &
                                 capacity, n)
         end if
         if (.not. is_error(handle%status)) then
@@ -234,12 +269,13 @@ contains
     end subroutine fswslv
 
     ! Position and velocity as the core has them.
-    pure type(wheelset_state_t) function state_of(row, rail) result(state)
+    pure type(wheelset_state_t) function state_of(row, handle) result(state)
         real(c_double), intent(in) :: row(n_state)
-        type(rail_state_t), intent(in) :: rail(2)
+        type(wheelset_handle_t), intent(in) :: handle
 
         state = wheelset_state_t(row(1), row(2), row(3), row(4), row(5), row(6), row(7), row(8), &
-                                 row(9), pitch_rate_of(row(10)), row(11), rail)
+                                 row(9), pitch_rate_of(row(10)), handle%pitch_rate_difference, &
+                                 row(11), handle%rail)
     end function state_of
 
     ! One contact of the last solution.
