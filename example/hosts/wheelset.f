@@ -37,6 +37,8 @@ C     as bits.
         END IF
         CALL FSWNEW(IOPT, PAR, SETUP, NPROF, Y, Z, IWORK, 8, INFO)
         IF (INFO .NE. 0) STOP 1
+C         The second one has contact damping.
+        IF (IC .EQ. 2) CALL FSDAMP(IWORK, 1.0D-3, 100.0D0, INFO)
         DO 30 I = 1, 11
           S(I) = 0.0D0
    30   CONTINUE
@@ -56,11 +58,13 @@ C     as bits.
           IDMND(3) = 0
           IF (MOD(I, 3) .GT. 0 .AND. I .LT. 7) IDMND(3) = 1
           IDMND(4) = MOD(I, 2)
-C         The rails have moved in the second half.
+C         The rails have moved in the second half, and each wheel
+C         rotates by itself.
           DO 40 K = 1, 12
             R(K) = RK(K)*I
    40     CONTINUE
           IF (I .GT. 6) CALL FSRAIL(IWORK, R, INFO)
+          IF (I .GT. 6) CALL FSPTCH(IWORK, 0.01D0*I, INFO)
           CALL FSWSLV(IWORK, S, IDMND, DMND, 16, N, CONT, WRES, INFO)
           WRITE (*, '(A, 2(1X, I0))') 'solved', INFO, N
           DO 70 ISIDE = 1, 2

@@ -52,7 +52,7 @@ program wheelsets
 
 contains
 
-    !> The first wheelset has profiles of names, the second one of points.
+    !> The first wheelset has profiles of names, the second one of points, and contact damping.
     subroutine make(setup)
         integer, intent(in) :: setup
         type(profile_t) :: wheels(2), rails(2)
@@ -80,10 +80,12 @@ contains
         rails(2) = rails(1)
         if (setup == 2) call make_wheel_profile('cone40', wheels(2), status)
         call make_wheelset(wheels, rails, wheelset_t(), 460.25_wp, track, case, model, status)
+        if (setup == 2) model%damping = 1.0e-3_wp
+        if (setup == 2) model%speed_floor = 100.0_wp
         call reserve_wheelset(workspace, model, status)
     end subroutine make
 
-    !> The rails have moved in the second half.
+    !> The rails have moved in the second half, and each wheel rotates by itself.
     subroutine ask(i)
         integer, intent(in) :: i
         real(wp) :: moved
@@ -102,6 +104,7 @@ contains
                                      -0.5_wp*moved, 1.0e-3_wp*moved)
         state%rail(2) = rail_state_t(-0.02_wp*moved, 0.01_wp*moved, -2.0e-4_wp*moved, -moved, &
                                      0.25_wp*moved, 2.0e-3_wp*moved)
+        state%pitch_rate_difference = 0.01_wp*moved
         demand = wheelset_demand_t(modulo(i, 3))
         demand%load = [60000.0_wp, 50000.0_wp]
         demand%axle_load = 120000.0_wp

@@ -1,4 +1,5 @@
-/* Wheelsets that the hosts make and solve: one of profiles with names, one of points. */
+/* Wheelsets that the hosts make and solve: one of profiles with names, one of points, which has
+ * contact damping. */
 #ifndef WHEELSETS_H
 #define WHEELSETS_H
 
@@ -44,6 +45,8 @@ static faststrip_wheelset *make_wheelset(int of_points)
     rails[0].name = "60e1";
     if (of_points) {
         setup.rail_distance = 1500.0;
+        setup.damping = 1e-3;
+        setup.speed_floor = 100.0;
         wheels[0].name = rails[0].name = NULL;
         wheels[0].y = rails[0].y = points_y;
         wheels[0].z = points_wheel;
@@ -60,7 +63,7 @@ enum { ASKED = 12 };
 /* What is asked i-th, i from 1 to ASKED; z and roll stay. */
 static void ask_wheelset(int i, faststrip_wheelset_state *state, faststrip_wheelset_demand *demand)
 {
-    /* The rails have moved in the second half. */
+    /* The rails have moved in the second half, and each wheel rotates by itself. */
     const double moved = i > 6 ? i : 0;
     int side;
 
@@ -74,6 +77,7 @@ static void ask_wheelset(int i, faststrip_wheelset_state *state, faststrip_wheel
     state->yaw_rate = 0.01 * i;
     state->pitch_rate = -20000.0 / 460.0;
     state->curvature = 1e-6;
+    state->pitch_rate_difference = 0.01 * moved;
     for (side = 0; side < 2; side++) {
         faststrip_rail_state *rail = &state->rail[side];
 

@@ -89,9 +89,11 @@ class Interfaces(HostTest):
         units = {"y": "y_mm", "z": "z_mm", "roll": "roll_rad", "y_rate": "vy_mm_s",
                  "z_rate": "vz_mm_s", "roll_rate": "roll_rate_rad_s"}
         columns = [f"rail_{side}_{unit}" for side in ("right", "left") for unit in units.values()]
-        numbers = [*right.values(), *left.values()]
+        columns.append("pitch_rate_difference_rad_s")
+        numbers = [*right.values(), *left.values(), -0.05]
         self.write("moved.nml", "&wheel\n  profile = 's1002'\n/\n&rail\n  profile = '60e1'\n"
-                   "  cant = 0.025\n/\n&material\n  mu = 0.3\n/\n")
+                   "  cant = 0.025\n/\n&material\n  mu = 0.3\n/\n&numerics\n"
+                   "  contact_damping_s_per_mm = 1e-3, speed_floor_mm_s = 50\n/\n")
         self.write("moved.csv", "case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N,"
                    f"{','.join(columns)}\nmoved,both,2.5,,0.003,20000,-43.5,120000,"
                    f"{','.join(map(repr, numbers))}\n")
@@ -101,9 +103,10 @@ class Interfaces(HostTest):
         lines = [line for line in text.splitlines() if line[0] != "#"]
         rows = {row["side"]: row for row in csv.DictReader(lines)}
         state = {"y": 2.5, "yaw": 0.003, "speed": 2e4, "pitch_rate": -43.5, "axle_load": 1.2e5}
-        wheelset = package.Wheelset()
+        wheelset = package.Wheelset(damping=1e-3, speed_floor=50.0)
         result = wheelset.solve(right_rail=package.RailState(**right),
-                                left_rail=package.RailState(**left), **state)
+                                left_rail=package.RailState(**left),
+                                pitch_rate_difference=-0.05, **state)
         self.assertEqual([one.side for one in result.contacts], ["right", "left"])
         for one in result.contacts:
             row = rows[one.side]
@@ -124,6 +127,70 @@ class Interfaces(HostTest):
         self.assertLess(abs(left_out.force[0, 0]), 0.1 * said.force[0, 2])
         locked = wheelset.solve(pitch_rate=0.0, **state)
         self.assertGreater(abs(locked.force[0, 0]), 0.25 * said.force[0, 2])
+
+    def test_wheels_that_rotate_independently(self):
+        package = self.import_package()
+        wheelset = package.Wheelset()
+        state = {"y": 2.0, "z": 0.2, "roll": 0.0, "speed": 2e4}
+        apart = wheelset.solve(pitch_rate=-43.0, pitch_rate_difference=0.5, **state)
+        for side, pitch_rate in enumerate((-43.25, -42.75)):
+            alone = wheelset.solve(pitch_rate=pitch_rate, **state)
+            self.assertEqual(apart.force[side].tolist(), alone.force[side].tolist())
+            self.assertEqual(apart.moment[side].tolist(), alone.moment[side].tolist())
+        self.assertNotEqual(apart.force[0, 0], apart.force[1, 0])
+        # Looked at from the other end, and in a mirror.
+        back = wheelset.solve(pitch_rate=43.0, pitch_rate_difference=-0.5,
+                              **{**state, "speed": -2e4})
+        self.assertEqual((back.force * (-1, 1, 1)).tolist(), apart.force.tolist())
+        left = wheelset.solve(pitch_rate=-43.0, pitch_rate_difference=-0.5, **{**state, "y": -2.0})
+        self.assertEqual((left.force[::-1] * (1, -1, 1)).tolist(), apart.force.tolist())
+
+    def test_damping_grows_with_the_approach_and_never_pulls(self):
+        package = self.import_package()
+        damped, plain = package.Wheelset(damping=2e-3), package.Wheelset()
+        # At the flange root, where the normal is far from the vertical.
+        state = {"y": 6.5, "z": 0.35, "roll": 0.0, "speed": 2e4, "yaw": 0.003}
+        one = plain.solve(**state, y_rate=20.0, z_rate=30.0)
+        self.assertEqual(damped.solve(**state).force.tolist(), plain.solve(**state).force.tolist())
+        contact = one.contacts[0]
+        self.assertGreater(abs(contact.contact_angle), 0.2)
+        rate = 30.0 * math.cos(contact.contact_angle) - 20.0 * math.sin(contact.contact_angle)
+        both = damped.solve(**state, y_rate=20.0, z_rate=30.0)
+        for k in range(3):
+            self.assertAlmostEqual(both.contacts[0].force[k],
+                                   contact.force[k] * (1.0 + 2e-3 * rate), delta=1e-6)
+            self.assertAlmostEqual(both.contacts[0].moment[k],
+                                   contact.moment[k] * (1.0 + 2e-3 * rate), delta=1e-3)
+        self.assertEqual(both.contacts[0].load, contact.load)
+        # A rail that follows takes the rate away.
+        rail = package.RailState(y_rate=20.0, z_rate=30.0)
+        follows = {"right_rail": rail, "left_rail": rail, "y_rate": 20.0, "z_rate": 30.0}
+        self.assertEqual(damped.solve(**state, **follows).force.tolist(),
+                         plain.solve(**state, **follows).force.tolist())
+        gone = damped.solve(**state, z_rate=-3000.0)
+        self.assertEqual(abs(gone.force).tolist(), [[0.0] * 3] * 2)
+        loaded = damped.solve(y=1.0, load=6e4, speed=2e4, z_rate=-40.0, roll=0.0)
+        self.assertAlmostEqual(loaded.force[0, 2], 6e4, delta=1e-2)
+        self.assertGreater(loaded.z[0], plain.solve(y=1.0, load=6e4, speed=2e4, roll=0.0).z[0])
+
+    def test_with_a_floor_of_the_speed_forces_vanish_with_the_slip(self):
+        package = self.import_package()
+        floored, plain = package.Wheelset(speed_floor=10.0), package.Wheelset()
+        state = {"y": 2.0, "z": 0.15, "roll": 0.0}
+        small = [floored.solve(y_rate=rate, **state).force[0, 1]
+                 - floored.solve(y_rate=0.0, **state).force[0, 1] for rate in (1e-4, 2e-4)]
+        self.assertAlmostEqual(small[1], 2.0 * small[0], delta=1e-3 * abs(small[0]))
+        slides = plain.solve(y_rate=1e-4, **state)
+        self.assertGreater(abs(slides.force[0, 1] - plain.solve(**state).force[0, 1]),
+                           50.0 * abs(small[0]))
+        slope = floored.solve(y_rate=0.0, derivatives=True, **state).derivatives[0, 1, 4]
+        self.assertAlmostEqual(slope, small[0] / 1e-4, delta=1e-3 * abs(slope))
+        fast = floored.solve(speed=2e4, yaw=2e-3, **state).force
+        for found, wanted in zip(fast.flat, plain.solve(speed=2e4, yaw=2e-3, **state).force.flat):
+            self.assertAlmostEqual(found, wanted, delta=1e-6 * abs(fast).max())
+        for wrong in ({"damping": -1e-3}, {"speed_floor": -1.0}, {"damping": math.inf}):
+            with self.assertRaisesRegex(package.FaststripError, next(iter(wrong)).split("_")[-1]):
+                package.Wheelset(**wrong)
 
     def test_at_rest_is_static_equilibrium(self):
         package = self.import_package()
@@ -180,22 +247,22 @@ class Interfaces(HostTest):
         wheels = (parts.Points * 2)(parts.points_of("wheel", "s1002", "wheel"))
         rails = (parts.Points * 2)(parts.points_of("rail", "60e1", "rail"))
         case = parts.new_case("strip", "faststrip", 9, 15, (50, 50), False, 0.1, 0.1)
-        for size in (0, 64, 71, 72, 76, 80):
+        for size in (0, 72, 80, 87, 88, 92, 96):
             setup, handle = parts.Setup(gauge=1.0), ctypes.c_void_p()
             text = ctypes.create_string_buffer(256)
             known = size == ctypes.sizeof(parts.Setup)
             self.assertEqual(library.faststrip_default_wheelset(point(setup), size),
                              0 if known else 100)
-            self.assertEqual((setup.size, setup.gauge), (72, 1435.0) if known else (0, 1.0))
-            library.faststrip_default_wheelset(point(setup), 72)
+            self.assertEqual((setup.size, setup.gauge), (88, 1435.0) if known else (0, 1.0))
+            library.faststrip_default_wheelset(point(setup), 88)
             setup.size = size
             self.assertEqual(library.faststrip_wheelset_new(
                 point(setup), wheels, rails, point(case), point(handle), text, 256),
                 0 if known else 100)
             self.assertEqual(library.faststrip_wheelset_free(point(handle)), 0)
             if not known:
-                self.assertRegex(text.value.decode(), rf"72 bytes .*got {size}: the header is "
-                                 + ("newer" if size > 72 else "older"))
+                self.assertRegex(text.value.decode(), rf"88 bytes .*got {size}: the header is "
+                                 + ("newer" if size > 88 else "older"))
 
     def test_elements_and_strips_add_up_as_those_of_the_program(self):
         package = self.import_package()
@@ -308,18 +375,20 @@ def make(package, of_points):
         y = [float(k - 30) for k in range(61)]
         wheel = package.Profile(y, [-k * k / 2000.0 - k / 20.0 for k in y])
         rail = package.Profile(y, [k * k / 600.0 for k in y])
-        more = {"rail_distance": 1500.0, "wheel_left": "cone40"}
+        more = {"rail_distance": 1500.0, "wheel_left": "cone40", "damping": 1e-3,
+                "speed_floor": 100.0}
     return package.Wheelset(wheel, rail, radius_left=460.25, cant=0.05, mu=0.35,
                             strips_per_patch=9, with_elements=True, **more)
 
 
 def ask(package, i, z, roll):
-    """The rails have moved in the second half."""
+    """The rails have moved in the second half, and each wheel rotates by itself."""
     wanted = {"y": 0.5 * i - 3.0, "yaw": 0.001 * i, "speed": 20000.0, "y_rate": 10.0 * i,
               "z_rate": 1.0, "roll_rate": 0.001, "yaw_rate": 0.01 * i,
               "pitch_rate": -20000.0 / 460.0, "curvature": 1e-6, "roll_moment": 1e6,
               "warm_start": i % 2 == 1, "wheels": "both"}
     moved = float(i) if i > 6 else 0.0
+    wanted["pitch_rate_difference"] = 0.01 * moved
     wanted["right_rail"] = package.RailState(0.01 * moved, -0.02 * moved, 1e-4 * moved, 2.0 * moved,
                                              -0.5 * moved, 1e-3 * moved)
     wanted["left_rail"] = package.RailState(-0.02 * moved, 0.01 * moved, -2e-4 * moved, -moved,

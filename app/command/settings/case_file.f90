@@ -54,9 +54,9 @@ contains
         call read_motion_group(content, from_profiles, case)
         call read_friction_group(content, case%mu, from_profiles, case%friction)
         call read_settings(content, 'numerics', case, group)
-        if (is_set(group, 'contact_damping_s_per_mm')) &
+        if (case%damping > 0.0_wp) &
             call refuse(group, 'contact_damping_s_per_mm', 'is for wheelsets only', '')
-        if (is_set(group, 'speed_floor_mm_s')) &
+        if (case%speed_floor > 0.0_wp) &
             call refuse(group, 'speed_floor_mm_s', 'is for wheelsets only', '')
         call read_sweep_group(content, case)
     end subroutine read_case

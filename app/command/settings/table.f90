@@ -49,7 +49,7 @@ module faststrip_command_settings_table
     !> One setting.
     type :: setting_t
         character(len=10) :: group = ''      !! of the case file; two that know it: `wheel rail`
-        character(len=26) :: key = ''        !! its name there
+        character(len=27) :: key = ''        !! its name there
         integer :: kind = a_number           !! one of the `a_` numbers
         character(len=160) :: help = ''      !! what it is; lines parted by line feeds
         integer :: range = anywhere          !! of numbers

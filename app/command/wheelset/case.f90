@@ -93,9 +93,9 @@ contains
         if (.not. in_core(tangential_table, case%methods%tangential)) &
             call refuse(group, 'tangential', 'must be a method of the library for a table', &
                         trim(tangential_method_name(case%methods%tangential)))
-        if (is_set(group, 'contact_damping_s_per_mm')) &
+        if (case%damping > 0.0_wp) &
             call refuse(group, 'contact_damping_s_per_mm', 'must not be given for a table', '')
-        if (is_set(group, 'speed_floor_mm_s')) &
+        if (case%speed_floor > 0.0_wp) &
             call refuse(group, 'speed_floor_mm_s', 'must not be given for a table', '')
         if (case%smoothing > 0.0_wp) &
             call refuse(group, 'smoothing_um', 'must not be given for a table; smooth its ' // &
