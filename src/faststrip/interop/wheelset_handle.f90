@@ -7,7 +7,9 @@ module faststrip_interop_wheelset_handle
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t, pure_rolling
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
     use faststrip_interop_solution, only: mirror_t
+    use faststrip_normal_cells_lattice, only: lattice_workspace_t, lend_elements
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
+    use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_plausible, only: doubts_t, case_names_t, add_doubt, doubt_material, &
                                            doubt_pressure
     use faststrip_base_plausible, only: of_radius
@@ -15,6 +17,7 @@ module faststrip_interop_wheelset_handle
     use faststrip_wheelset_derivatives, only: find_wheelset_derivatives
     use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
+                                        wheel_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, side_right, side_left
     implicit none
     private
@@ -103,11 +106,23 @@ contains
 
     !> Copy a wheelset with its last solution into another, for a step that may be taken back.
     subroutine copy_wheelset(from, to)
-        type(wheelset_handle_t), intent(in) :: from  !! stays as it is
-        type(wheelset_handle_t), intent(inout) :: to !! becomes equal
+        type(wheelset_handle_t), intent(inout) :: from !! stays as it is
+        type(wheelset_handle_t), intent(inout) :: to   !! becomes equal
 
+        integer :: side
+
+        if (are_alike(from, to)) then
+            do side = side_right, side_left
+                call copy_memory(from%workspace%wheel(side), to%workspace%wheel(side))
+            end do
+            to%workspace%last_state = from%workspace%last_state
+            to%workspace%has_last = from%workspace%has_last
+            to%workspace%is_reversed = from%workspace%is_reversed
+            to%workspace%stiffness = from%workspace%stiffness
+        else
+            to%workspace = from%workspace
+        end if
         to%model = from%model
-        to%workspace = from%workspace
         to%result = from%result
         to%has = from%has
         to%rail = from%rail
@@ -115,6 +130,54 @@ contains
         to%doubts = from%doubts
         call clear_status(to%status)
     end subroutine copy_wheelset
+
+    ! Were both made of the same profiles for the same methods?
+    pure logical function are_alike(from, to)
+        type(wheelset_handle_t), intent(in) :: from, to
+
+        integer :: side
+
+        are_alike = .true.
+        do side = side_right, side_left
+            associate (one => from%workspace%wheel(side), other => to%workspace%wheel(side))
+                are_alike = are_alike .and. one%outline%mark == other%outline%mark &
+                            .and. size(one%outline%x) == size(other%outline%x)
+            end associate
+        end do
+        associate (one => from%model%case, other => to%model%case)
+            are_alike = are_alike .and. (one%asked%field .eqv. other%asked%field) &
+                        .and. all(numbers_of(one%methods) == numbers_of(other%methods))
+        end associate
+    end function are_alike
+
+    ! What a workspace is reserved by.
+    pure function numbers_of(methods) result(numbers)
+        type(contact_methods_t), intent(in) :: methods
+        integer :: numbers(6)
+
+        numbers = [methods%normal, methods%tangential, methods%strips_per_patch, &
+                   methods%points_per_strip, methods%fastsim_nx, methods%fastsim_ny]
+    end function numbers_of
+
+    ! What the next solution of a wheel may depend on, and what is asked of the last one: contacts
+    ! that it does not have, and what solutions work in, are most of the memory.
+    pure subroutine copy_memory(from, to)
+        type(wheel_workspace_t), intent(inout) :: from, to
+
+        type(lattice_workspace_t) :: kept(2)
+
+        to%outline = from%outline
+        to%gap = from%gap
+        to%n = from%n
+        to%approach = from%approach
+        to%slope = from%slope
+        to%region = from%region
+        call lend_elements(from%contact(1)%solver%lattice, kept(1))
+        call lend_elements(to%contact(1)%solver%lattice, kept(2))
+        to%contact(:to%n) = from%contact(:to%n)
+        call lend_elements(kept(1), from%contact(1)%solver%lattice)
+        call lend_elements(kept(2), to%contact(1)%solver%lattice)
+    end subroutine copy_memory
 
     !> The pitch rate of a number in C and F77, where 0 is what nobody has said.
     elemental real(wp) function pitch_rate_of(number) result(rate)

@@ -9,6 +9,7 @@ module faststrip_wheelset_wheel
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, solve_contact_forces, &
                                        estimate_contact, name_yield
     use faststrip_contact_methods, only: normal_auto, tangential_linear
+    use faststrip_normal_cells_lattice, only: lend_elements
     use faststrip_geometry_gap, only: gap_t
     use faststrip_wheelset_guide, only: needs_guide, take_guide
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, in_track, &
@@ -27,7 +28,7 @@ module faststrip_wheelset_wheel
     private
 
     public :: solve_wheel_at, estimate_wheel, name_pressures, mirror_wheel, reverse_wheel
-    public :: take_motion, move_wheel
+    public :: take_motion, move_wheel, lend_scratch
 
     ! Tuned [1]: of the strips' last step. Origin: measured: with 1e-10 a step of a wheelset costs a
     ! tenth more; with five strips forces from the last solution are those without it within 2e-7 of
@@ -84,7 +85,9 @@ contains
         do i = 1, n
             associate (contact => wheel%contact(i))
                 contact = wheel_contact_t()
+                call lend_scratch(workspace, 1, i)
                 call solve_one(model, pair, workspace, i, regions(i), state, lowered, case, contact)
+                call lend_scratch(workspace, i, 1)
                 wheel%solutions = wheel%solutions + 1
                 if (worse(contact%status, wheel%status)) wheel%status = contact%status
                 if (is_error(contact%status)) then
@@ -129,6 +132,16 @@ contains
         end do
         call add_contacts(wheel)
     end subroutine move_wheel
+
+    !> Lend what a solution needs and nothing keeps from one contact of a wheel to another: there is
+    !> one for all, which belongs to the first.
+    pure subroutine lend_scratch(workspace, from, to)
+        type(wheel_workspace_t), intent(inout) :: workspace !! of the wheel
+        integer, intent(in) :: from, to                     !! which contacts
+
+        if (from /= to) call lend_elements(workspace%contact(from)%solver%lattice, &
+                                           workspace%contact(to)%solver%lattice)
+    end subroutine lend_scratch
 
     ! The sums of a wheel's contacts.
     pure subroutine add_contacts(wheel)

@@ -50,7 +50,7 @@ module faststrip_normal_cells_lattice
     private
 
     public :: lattice_workspace_t, reserve_lattice, lattice_solve, lattice_solve_penetration
-    public :: lattice_errors, lattice_errors_t, forget_lattice_errors
+    public :: lattice_errors, lattice_errors_t, forget_lattice_errors, lend_elements
 
     !> More strips across the largest patch are not used, however many are asked for.
     !> Tuned [strips]. Origin: capacity.
@@ -77,7 +77,7 @@ module faststrip_normal_cells_lattice
         private
         type(lattice_errors_t) :: errors ! of the last solution
         type(lattice_cells_t) :: cells
-        type(elements_t) :: elements
+        type(elements_t), allocatable :: elements ! nothing of them is kept; see `lend_elements`
     end type lattice_workspace_t
 
 contains
@@ -94,10 +94,19 @@ contains
                             // '3, got ' // count_text(max_strips))
             return
         end if
-        if (workspace%cells%capacity >= min(max_strips, most_cells)) return
         call reserve_cells(workspace%cells, min(max_strips, most_cells))
+        if (.not. allocated(workspace%elements)) allocate (workspace%elements)
         call reserve_elements(workspace%elements, min(max_strips, most_cells))
     end subroutine reserve_lattice
+
+    !> Lend the elements, which are most of the memory, from one workspace to another that was
+    !> reserved alike: for contacts that are solved one after the other.
+    pure subroutine lend_elements(from, to)
+        type(lattice_workspace_t), intent(inout) :: from !! cannot solve until they are back
+        type(lattice_workspace_t), intent(inout) :: to   !! gets them, if there are any
+
+        if (allocated(from%elements)) call move_alloc(from%elements, to%elements)
+    end subroutine lend_elements
 
     !> Strips that carry a load.
     !>
