@@ -81,6 +81,7 @@ static int find_profile(model *m, int kind, const char *name, double **points,
 {
     char text[FASTSTRIP_TEXT], path[2 * PATH_LENGTH];
     faststrip_reading reading;
+    double nothing[1];
     int n = 0, code;
     memset(profile, 0, sizeof *profile);
     if (!*name) return STATUS_OK;
@@ -91,7 +92,8 @@ static int find_profile(model *m, int kind, const char *name, double **points,
         return refuse(m, STATUS_ERROR, "the path of a profile is too long");
     faststrip_default_reading(&reading, sizeof reading);
     reading.kind = kind;
-    code = faststrip_read_profile(path, &reading, 0, &n, NULL, NULL, NULL, text, sizeof text);
+    code = faststrip_read_profile(path, &reading, 0, &n, nothing, nothing, NULL, text,
+                                  sizeof text);
     if (code == FASTSTRIP_WORKSPACE_TOO_SMALL) {
         *points = malloc(2 * (size_t)n * sizeof **points);
         if (!*points) return refuse(m, STATUS_ERROR, "there is no memory for a profile");
@@ -106,15 +108,16 @@ static int find_profile(model *m, int kind, const char *name, double **points,
     return STATUS_OK;
 }
 
-static int solve_state(model *m, faststrip_wheelset *wheelset,
-                       const faststrip_wheelset_state *state, values *found, int *code)
+/* Outputs of a wheelset; the status of the library, with an error they stay. */
+static int solve_state(faststrip_wheelset *wheelset, const faststrip_wheelset_state *state,
+                       const faststrip_wheelset_demand *demand, values *found)
 {
     faststrip_wheelset_contact contacts[FASTSTRIP_MOST_CONTACTS];
     faststrip_wheelset_result result;
     int n, shown[2] = {0, 0};
-    *code = faststrip_wheelset_solve(wheelset, state, &m->now.demand, FASTSTRIP_MOST_CONTACTS, &n,
-                                     contacts, &result);
-    if (*code >= FASTSTRIP_FIRST_ERROR) return STATUS_DISCARD;
+    int code = faststrip_wheelset_solve(wheelset, state, demand, FASTSTRIP_MOST_CONTACTS, &n,
+                                        contacts, &result);
+    if (code >= FASTSTRIP_FIRST_ERROR) return code;
     memset(found->side, 0, sizeof found->side);
     found->roll = result.roll;
     for (int i = 0; i < 2; i++) {
@@ -129,7 +132,7 @@ static int solve_state(model *m, faststrip_wheelset *wheelset,
         int of = contacts[i].side == FASTSTRIP_LEFT_WHEEL;
         if (shown[of] < SHOWN) found->side[of].contact[shown[of]++] = contacts[i];
     }
-    return STATUS_OK;
+    return code;
 }
 
 static int make_wheelset(model *m, faststrip_wheelset **wheelset)
@@ -149,23 +152,29 @@ static int make_wheelset(model *m, faststrip_wheelset **wheelset)
     return status;
 }
 
-/* Both wheelsets. A demand that is refused where nothing moves is wrong itself. */
-static int make_wheelsets(model *m)
+/* What is wrong with a rolling wheelset in the middle of its track is wrong with the parameters. */
+static int try_demand(model *m, const faststrip_wheelset_demand *demand)
 {
-    static const faststrip_wheelset_state in_the_middle;
+    const faststrip_wheelset_state rolling = {.speed = 1e3};
     char text[FASTSTRIP_TEXT];
     values found;
-    int status, code;
+    int code = solve_state(m->near, &rolling, demand, &found);
+    if (code != FASTSTRIP_BAD_ARGUMENT && code != FASTSTRIP_NOT_FINITE
+        && code != FASTSTRIP_BAD_MATERIAL)
+        return STATUS_OK;
+    faststrip_wheelset_last_message(m->near, text, sizeof text);
+    return refuse_call(m, STATUS_ERROR, code, text);
+}
+
+static int make_wheelsets(model *m)
+{
+    const faststrip_wheelset_demand any = {.kind = FASTSTRIP_BY_AXLE_LOAD, .axle_load = 1e5};
+    int status = STATUS_OK;
     if (m->wheelset) return STATUS_OK;
-    status = m->near ? STATUS_OK : make_wheelset(m, &m->near);
-    if (status != STATUS_OK) return status;
-    solve_state(m, m->near, &in_the_middle, &found, &code);
-    if (code == FASTSTRIP_BAD_ARGUMENT) {
-        faststrip_wheelset_last_message(m->near, text, sizeof text);
-        faststrip_wheelset_free(&m->near);
-        return refuse_call(m, STATUS_ERROR, code, text);
-    }
-    return make_wheelset(m, &m->wheelset);
+    if (!m->near) status = make_wheelset(m, &m->near);
+    if (status == STATUS_OK) status = try_demand(m, &any);
+    if (status == STATUS_OK) status = try_demand(m, &m->now.demand);
+    return status == STATUS_OK ? make_wheelset(m, &m->wheelset) : status;
 }
 
 int start_model(model *m)
@@ -195,10 +204,11 @@ int solve_model(model *m)
     if (m->is_solved) return STATUS_OK;
     status = make_wheelsets(m);
     if (status != STATUS_OK) return status;
-    status = solve_state(m, m->wheelset, &m->now.state, &m->now, &code);
-    if (status != STATUS_OK) {
+    m->slopes_are = UNKNOWN;
+    code = solve_state(m->wheelset, &m->now.state, &m->now.demand, &m->now);
+    if (code >= FASTSTRIP_FIRST_ERROR) {
         faststrip_wheelset_last_message(m->wheelset, text, sizeof text);
-        return refuse_call(m, status, code, text);
+        return refuse_call(m, STATUS_DISCARD, code, text);
     }
     m->is_solved = 1;
     if (m->is_logging) tell_doubts(m, code);
@@ -276,6 +286,7 @@ static int copy_model(model *m, const model *from, model *to)
     int code, status = STATUS_OK;
     memcpy(&to->now, &from->now, sizeof to->now);
     to->is_solved = from->is_solved;
+    to->slopes_are = UNKNOWN;
     if (!from->wheelset) {
         faststrip_wheelset_free(&to->wheelset);
         faststrip_wheelset_free(&to->near);
@@ -383,7 +394,8 @@ static int find_difference(model *m, difference *along)
             numbers[k] += (i == 0 ? -step : step) * along->direction[k];
         memcpy(&along->side[i], &m->now, sizeof(values));
         if (code < FASTSTRIP_FIRST_ERROR
-            && solve_state(m, m->near, &state, &along->side[i], &code) == STATUS_OK)
+            && solve_state(m->near, &state, &m->now.demand, &along->side[i])
+               < FASTSTRIP_FIRST_ERROR)
             along->distance += step;
     }
     return along->distance > 0.0 ? STATUS_OK
@@ -394,9 +406,8 @@ int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsi
                      size_t k, const double *seeds, double *derivatives)
 {
     difference all = {.distance = 0.0}, others = all, *along;
-    double slopes[2][6][8];
     const variable *of;
-    int is_known, status = solve_model(m);
+    int status = solve_model(m);
     if (status != STATUS_OK) return status;
     for (size_t i = 0; i < k; i++) {
         status = find_variable(m, inputs[i], REAL, &of);
@@ -407,14 +418,17 @@ int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsi
     }
     for (int j = 0; j < N_STATE; j++)
         if (column_of(j) < 0) others.direction[j] = all.direction[j];
-    /* Of the library where z and roll are given, unless something comes or goes just there. */
-    is_known = m->now.demand.kind == FASTSTRIP_BY_POSITION
-               && faststrip_wheelset_get_derivatives(m->wheelset, slopes) < FASTSTRIP_FIRST_ERROR;
+    /* Of the library where z and roll are given, unless something comes or goes just there. One
+     * call for all: it leaves the wheelset other than it was, in the last digits. */
+    if (m->slopes_are == UNKNOWN)
+        m->slopes_are = m->now.demand.kind == FASTSTRIP_BY_POSITION
+                        && faststrip_wheelset_get_derivatives(m->wheelset, m->slopes)
+                           < FASTSTRIP_FIRST_ERROR ? KNOWN : NONE;
     for (size_t i = 0; i < n; i++) {
         int row;
         status = find_variable(m, outputs[i], REAL, &of);
         if (status != STATUS_OK) return status;
-        row = is_known ? row_of(of->offset) : -1;
+        row = m->slopes_are == KNOWN ? row_of(of->offset) : -1;
         along = row >= 0 ? &others : &all;
         if (!along->is_found) status = find_difference(m, along);
         if (status != STATUS_OK) return status;
@@ -423,7 +437,7 @@ int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsi
                            / along->distance : 0.0;
         for (int j = 0; row >= 0 && j < N_STATE; j++)
             if (column_of(j) >= 0)
-                derivatives[i] += slopes[row / 6][row % 6][column_of(j)] * all.direction[j];
+                derivatives[i] += m->slopes[row / 6][row % 6][column_of(j)] * all.direction[j];
     }
     return STATUS_OK;
 }

@@ -45,6 +45,8 @@ typedef struct model {
     int is_solved;                /* do the outputs belong to the inputs? */
     faststrip_wheelset *wheelset; /* null: to be made of the parameters */
     faststrip_wheelset *near;     /* for solutions beside it */
+    enum { UNKNOWN, KNOWN, NONE } slopes_are;
+    double slopes[2][6][8];       /* derivatives of the library at the last solution */
     int is_logging;
     char *resources;              /* folder, with a separator at its end */
     char *name;
