@@ -45,6 +45,8 @@
   report [...]  build, then measure, judge and draw everything; in out/report/ (--quick: less)
   install --prefix FOLDER
                 build, then install program, library, modules, header, man page there
+  fmu [FILE...] make the functional mock-up units of a wheelset, FMI 2.0 and 3.0, for other
+                simulators, with these profile files in them; in out/fmu/
   package       make the Python package for pip, with the library in it, and its source
                 distribution; in out/package/
   release [--check]
@@ -537,19 +539,17 @@ def release_build(_):
     return 0, ""
 
 
-def page_packages(text):
-    """What the test of the page needs beside the others; without it that is skipped."""
-    test = pathlib.Path("test/embed/test_explore.py")
-    if not test.exists() or text and test.stem.removeprefix("test_") not in text:
-        return
+def has_packages(text, name, what):
+    """Install what test_NAME.py needs beside the others, if it is to run; without that it is
+    skipped."""
+    if not os.path.exists(f"test/embed/test_{name}.py") or text and name not in text:
+        return False
     try:
-        python_packages("explore", "Bokeh and selenium")
+        python_packages(name, what)
     except Trouble as trouble:
-        print(f"the page is not tested: {trouble}", flush=True)
-        return
-    why = install_browser()
-    if why:
-        print(f"the page is not tested in a browser: {why}", flush=True)
+        print(f"test_{name}.py is skipped: {trouble}", flush=True)
+        return False
+    return True
 
 
 def install_browser():
@@ -568,7 +568,10 @@ def install_browser():
 
 
 def python_tests(text):
-    page_packages(text)
+    has_packages(text, "fmu", "FMPy")
+    why = has_packages(text, "explore", "Bokeh and selenium") and install_browser()
+    if why:
+        print(f"the page is not tested in a browser: {why}", flush=True)
     if os.path.isdir("test/cli"):
         python_packages("test", "what the tests of the Python package and of NetCDF need")
     return pytest(text, ["test/tools", "test/cli", "test/plots", "test/embed"])
@@ -849,6 +852,14 @@ def docs():
     heading("done: out/docs/index.html")
 
 
+def fmu(*files):
+    python_packages("fmu", "FMPy")
+    install_below(ROOT / "build" / "embed")
+    do(sys.executable, "tools/building/fmu.py", "--prefix", "build/embed", "--folder",
+       folder("fmu"), *(os.path.join(START, file) for file in files))
+    heading("done: the units are in out/fmu/")
+
+
 def package():
     python_packages("test", "what builds the Python package")
     do(sys.executable, "tools/building/package.py", "--folder", folder("package"))
@@ -915,12 +926,12 @@ FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 3
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
     build_step, test, lint, bare, mutants, hostile, fuzz, corrections, demo, strips, speed, scale,
-    lists, net, lookup, page, extremes, forces, scenes, stored, report, install, package, release,
-    docs, embed, tables, compilers, clean)}
+    lists, net, lookup, page, extremes, forces, scenes, stored, report, install, fmu, package,
+    release, docs, embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"lint": 1, "bare": 1, "fuzz": 1, "clean": 1, **dict.fromkeys((
     "test", "install", "mutants", "hostile", "stored", "report", "speed", "scale", "net", "lookup",
-    "page", "release"))}
+    "page", "release", "fmu"))}
 
 
 def main(command="", *words):

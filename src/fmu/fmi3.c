@@ -4,27 +4,30 @@
 #include <fmi3Functions.h>
 #include <stdlib.h>
 
+#define FMI(NAME) fmi3##NAME
+#define OF_STATE(BEFORE, AFTER) fmi3##BEFORE##FMUState##AFTER
+#define N_VALUES , size_t n_values
+#include "both.h"
+
+REALS(Float64)
+INTS(Int32, INTEGER)
+INTS(Int64, INTEGER) /* enumerations */
+NOTHING(EnterStepMode)
+NOTHING(EvaluateDiscreteStates)
+NO_NUMBERS(GetContinuousStateDerivatives, )
+
 void tell(model *m, int status, const char *text)
 {
     fmi3LogMessageCallback logger = (fmi3LogMessageCallback)m->logger;
-    static const char *const categories[] = {"", "logStatusWarning", "logStatusDiscard",
-                                             "logStatusError"};
     if (logger) logger(m->environment, (fmi3Status)status, categories[status], text);
 }
-
-/* Making */
 
 const char *fmi3GetVersion(void)
 {
     return fmi3Version;
 }
 
-fmi3Status fmi3SetDebugLogging(fmi3Instance c, fmi3Boolean is_on, size_t n,
-                               const fmi3String categories[])
-{
-    ((model *)c)->is_logging = is_on;
-    return fmi3OK;
-}
+/* Making */
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
                                           fmi3Boolean is_visible, fmi3Boolean is_logging,
@@ -63,11 +66,6 @@ fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token
     return NULL;
 }
 
-void fmi3FreeInstance(fmi3Instance c)
-{
-    free_model(c);
-}
-
 fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean has_tolerance,
                                        fmi3Float64 tolerance, fmi3Float64 start,
                                        fmi3Boolean has_stop, fmi3Float64 stop)
@@ -76,113 +74,7 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean has_tolerance
     return fmi3OK;
 }
 
-fmi3Status fmi3ExitInitializationMode(fmi3Instance c)
-{
-    return (fmi3Status)start_model(c);
-}
-
-fmi3Status fmi3Reset(fmi3Instance c)
-{
-    reset_model(c);
-    return fmi3OK;
-}
-
-/* Variables */
-
-fmi3Status fmi3GetFloat64(fmi3Instance c, const fmi3ValueReference of[], size_t n,
-                          fmi3Float64 to[], size_t n_values)
-{
-    int status = STATUS_OK;
-    for (size_t i = 0; i < n && status == STATUS_OK; i++) status = read_real(c, of[i], &to[i]);
-    return (fmi3Status)status;
-}
-
-fmi3Status fmi3SetFloat64(fmi3Instance c, const fmi3ValueReference of[], size_t n,
-                          const fmi3Float64 from[], size_t n_values)
-{
-    int status = STATUS_OK;
-    for (size_t i = 0; i < n && status == STATUS_OK; i++)
-        status = write_variable(c, of[i], REAL, &from[i]);
-    return (fmi3Status)status;
-}
-
-fmi3Status fmi3GetString(fmi3Instance c, const fmi3ValueReference of[], size_t n, fmi3String to[],
-                         size_t n_values)
-{
-    const void *place;
-    int status = STATUS_OK;
-    for (size_t i = 0; i < n && status == STATUS_OK; i++) {
-        status = read_variable(c, of[i], STRING, &place);
-        if (status == STATUS_OK) to[i] = place;
-    }
-    return (fmi3Status)status;
-}
-
-fmi3Status fmi3SetString(fmi3Instance c, const fmi3ValueReference of[], size_t n,
-                         const fmi3String from[], size_t n_values)
-{
-    int status = STATUS_OK;
-    for (size_t i = 0; i < n && status == STATUS_OK; i++)
-        status = write_variable(c, of[i], STRING, from[i]);
-    return (fmi3Status)status;
-}
-
-/* Types that an int stands for: an enumeration is an Int64. */
-#define INTS(TYPE, KIND)                                                                          \
-    fmi3Status fmi3Get##TYPE(fmi3Instance c, const fmi3ValueReference of[], size_t n,             \
-                             fmi3##TYPE to[], size_t n_values)                                    \
-    {                                                                                             \
-        const void *place;                                                                        \
-        int status = STATUS_OK;                                                                   \
-        for (size_t i = 0; i < n && status == STATUS_OK; i++) {                                   \
-            status = read_variable(c, of[i], KIND, &place);                                       \
-            if (status == STATUS_OK) to[i] = (fmi3##TYPE)*(const int *)place;                     \
-        }                                                                                         \
-        return (fmi3Status)status;                                                                \
-    }                                                                                             \
-    fmi3Status fmi3Set##TYPE(fmi3Instance c, const fmi3ValueReference of[], size_t n,             \
-                             const fmi3##TYPE from[], size_t n_values)                            \
-    {                                                                                             \
-        int status = STATUS_OK;                                                                   \
-        for (size_t i = 0; i < n && status == STATUS_OK; i++) {                                   \
-            int number = (int)from[i];                                                            \
-            status = write_variable(c, of[i], KIND, &number);                                     \
-        }                                                                                         \
-        return (fmi3Status)status;                                                                \
-    }
-INTS(Int32, INTEGER)
-INTS(Int64, INTEGER)
-INTS(Boolean, BOOLEAN)
-
 /* States and derivatives */
-
-fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state)
-{
-    return (fmi3Status)keep_state(c, state);
-}
-
-fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state)
-{
-    return (fmi3Status)restore_state(c, state);
-}
-
-fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state)
-{
-    free_model(*state);
-    *state = NULL;
-    return fmi3OK;
-}
-
-fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size)
-{
-    *size = state_size();
-    return fmi3OK;
-}
-
-fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size)
-{
-    return (fmi3Status)write_state(c, state, bytes, size);
-}
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_t size,
                                    fmi3FMUState *state)
@@ -198,17 +90,16 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference
     return (fmi3Status)find_derivatives(c, unknown, n, known, k, seeds, derivatives);
 }
 
-/* Nothing happens: there are neither states nor events, and no parameter may change later. */
-#define NOTHING(NAME)                                                                             \
-    fmi3Status fmi3##NAME(fmi3Instance c)                                                         \
+#define NO_COUNT(NAME)                                                                            \
+    fmi3Status fmi3##NAME(fmi3Instance c, size_t *n)                                              \
     {                                                                                             \
+        *n = 0;                                                                                   \
         return fmi3OK;                                                                            \
     }
-NOTHING(EnterEventMode)
-NOTHING(EnterContinuousTimeMode)
-NOTHING(EnterStepMode)
-NOTHING(Terminate)
-NOTHING(EvaluateDiscreteStates)
+NO_COUNT(GetNumberOfContinuousStates)
+NO_COUNT(GetNumberOfEventIndicators)
+
+/* Steps and events */
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *needs_update,
                                     fmi3Boolean *is_over, fmi3Boolean *has_other_nominals,
@@ -219,58 +110,17 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *needs_update,
     return fmi3OK;
 }
 
-fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean is_final,
-                                       fmi3Boolean *has_event, fmi3Boolean *is_over)
-{
-    *has_event = *is_over = fmi3False;
-    return fmi3OK;
-}
-
-fmi3Status fmi3SetTime(fmi3Instance c, fmi3Float64 time)
-{
-    ((model *)c)->now.time = time;
-    return fmi3OK;
-}
-
-/* Co-simulation: the outputs follow the inputs at once, so that a step is a solution. */
 fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Boolean is_final,
                       fmi3Boolean *has_event, fmi3Boolean *is_over, fmi3Boolean *is_early,
                       fmi3Float64 *last)
 {
-    model *m = c;
-    int status = solve_model(m);
-    *last = m->now.time = status == STATUS_OK ? time + step : time;
+    fmi3Status status = take_step(c, time, step);
+    *last = ((model *)c)->now.time;
     *has_event = *is_over = *is_early = fmi3False;
-    return (fmi3Status)status;
+    return status;
 }
 
-/* What this unit has none of; to ask for none of them is right. */
-static fmi3Status none(model *m, size_t n)
-{
-    if (n == 0) return fmi3OK;
-    tell(m, STATUS_ERROR, "there is none of what was asked for");
-    return fmi3Error;
-}
-
-#define NO_NUMBERS(NAME, CONSTANT)                                                                \
-    fmi3Status fmi3##NAME(fmi3Instance c, CONSTANT fmi3Float64 x[], size_t n)                     \
-    {                                                                                             \
-        return none(c, n);                                                                        \
-    }
-NO_NUMBERS(SetContinuousStates, const)
-NO_NUMBERS(GetContinuousStates, )
-NO_NUMBERS(GetContinuousStateDerivatives, )
-NO_NUMBERS(GetNominalsOfContinuousStates, )
-NO_NUMBERS(GetEventIndicators, )
-
-#define NO_COUNT(NAME)                                                                            \
-    fmi3Status fmi3##NAME(fmi3Instance c, size_t *n)                                              \
-    {                                                                                             \
-        *n = 0;                                                                                   \
-        return fmi3OK;                                                                            \
-    }
-NO_COUNT(GetNumberOfContinuousStates)
-NO_COUNT(GetNumberOfEventIndicators)
+/* What this unit has none of */
 
 #define NO_VARIABLES(TYPE)                                                                        \
     fmi3Status fmi3Get##TYPE(fmi3Instance c, const fmi3ValueReference of[], size_t n,             \

@@ -42,11 +42,13 @@ model *make_model(const char *name, const char *token, const char *resources)
     model *m = calloc(1, sizeof *m);
     if (!m) return NULL;
     m->name = strdup(name ? name : "");
-    m->resources = strdup(resources ? resources : "");
+    m->resources = calloc(1, (resources ? strlen(resources) : 0) + 2);
+    if (m->resources && resources) strcpy(m->resources, resources);
     if (!m->name || !m->resources || !token || strcmp(token, UNIT_TOKEN) != 0) {
         free_model(m);
         return NULL;
     }
+    if (*m->resources && m->resources[strlen(m->resources) - 1] != '/') strcat(m->resources, "/");
     reset_model(m);
     return m;
 }
@@ -55,7 +57,6 @@ void free_model(model *m)
 {
     if (!m) return;
     faststrip_wheelset_free(&m->wheelset);
-    faststrip_wheelset_free(&m->near);
     free(m->resources);
     free(m->name);
     free(m);
@@ -64,9 +65,7 @@ void free_model(model *m)
 void reset_model(model *m)
 {
     faststrip_wheelset_free(&m->wheelset);
-    faststrip_wheelset_free(&m->near);
     memset(&m->now, 0, sizeof m->now);
-    m->is_solved = 0;
     strcpy(m->now.profile[0], "s1002");
     strcpy(m->now.profile[2], "60e1");
     faststrip_default_wheelset(&m->now.setup, sizeof m->now.setup);
@@ -109,13 +108,13 @@ static int find_profile(model *m, int kind, const char *name, double **points,
 }
 
 /* Outputs of a wheelset; the status of the library, with an error they stay. */
-static int solve_state(faststrip_wheelset *wheelset, const faststrip_wheelset_state *state,
+static int solve_state(model *m, const faststrip_wheelset_state *state,
                        const faststrip_wheelset_demand *demand, values *found)
 {
     faststrip_wheelset_contact contacts[FASTSTRIP_MOST_CONTACTS];
     faststrip_wheelset_result result;
     int n, shown[2] = {0, 0};
-    int code = faststrip_wheelset_solve(wheelset, state, demand, FASTSTRIP_MOST_CONTACTS, &n,
+    int code = faststrip_wheelset_solve(m->wheelset, state, demand, FASTSTRIP_MOST_CONTACTS, &n,
                                         contacts, &result);
     if (code >= FASTSTRIP_FIRST_ERROR) return code;
     memset(found->side, 0, sizeof found->side);
@@ -135,7 +134,7 @@ static int solve_state(faststrip_wheelset *wheelset, const faststrip_wheelset_st
     return code;
 }
 
-static int make_wheelset(model *m, faststrip_wheelset **wheelset)
+static int make_of_profiles(model *m)
 {
     char text[FASTSTRIP_TEXT];
     double *points[4] = {NULL, NULL, NULL, NULL};
@@ -145,7 +144,7 @@ static int make_wheelset(model *m, faststrip_wheelset **wheelset)
         status = find_profile(m, i < 2 ? 1 : 2, m->now.profile[i], &points[i], &profiles[i]);
     if (status == STATUS_OK) {
         code = faststrip_wheelset_new(&m->now.setup, profiles, profiles + 2, &m->now.contact,
-                                      wheelset, text, sizeof text);
+                                      &m->wheelset, text, sizeof text);
         if (code >= FASTSTRIP_FIRST_ERROR) status = refuse_call(m, STATUS_ERROR, code, text);
     }
     for (int i = 0; i < 4; i++) free(points[i]);
@@ -158,28 +157,30 @@ static int try_demand(model *m, const faststrip_wheelset_demand *demand)
     const faststrip_wheelset_state rolling = {.speed = 1e3};
     char text[FASTSTRIP_TEXT];
     values found;
-    int code = solve_state(m->near, &rolling, demand, &found);
+    int code = solve_state(m, &rolling, demand, &found);
     if (code != FASTSTRIP_BAD_ARGUMENT && code != FASTSTRIP_NOT_FINITE
         && code != FASTSTRIP_BAD_MATERIAL)
         return STATUS_OK;
-    faststrip_wheelset_last_message(m->near, text, sizeof text);
+    faststrip_wheelset_last_message(m->wheelset, text, sizeof text);
     return refuse_call(m, STATUS_ERROR, code, text);
 }
 
-static int make_wheelsets(model *m)
+static int make_wheelset(model *m)
 {
     const faststrip_wheelset_demand any = {.kind = FASTSTRIP_BY_AXLE_LOAD, .axle_load = 1e5};
-    int status = STATUS_OK;
+    int status;
     if (m->wheelset) return STATUS_OK;
-    if (!m->near) status = make_wheelset(m, &m->near);
+    status = make_of_profiles(m);
     if (status == STATUS_OK) status = try_demand(m, &any);
     if (status == STATUS_OK) status = try_demand(m, &m->now.demand);
-    return status == STATUS_OK ? make_wheelset(m, &m->wheelset) : status;
+    if (status != STATUS_OK) faststrip_wheelset_free(&m->wheelset);
+    m->is_elsewhere = 1;
+    return status;
 }
 
 int start_model(model *m)
 {
-    int status = make_wheelsets(m);
+    int status = make_wheelset(m);
     m->now.is_running = status == STATUS_OK;
     return status;
 }
@@ -199,18 +200,21 @@ static void tell_doubts(model *m, int code)
 
 int solve_model(model *m)
 {
+    faststrip_wheelset_demand demand = m->now.demand;
     char text[FASTSTRIP_TEXT];
-    int code, status;
-    if (m->is_solved) return STATUS_OK;
-    status = make_wheelsets(m);
+    int code, status = STATUS_OK;
+    if (m->now.is_solved) return STATUS_OK;
+    status = make_wheelset(m);
     if (status != STATUS_OK) return status;
-    m->slopes_are = UNKNOWN;
-    code = solve_state(m->wheelset, &m->now.state, &m->now.demand, &m->now);
+    if (m->is_elsewhere) demand.warm_start = 0;
+    code = solve_state(m, &m->now.state, &demand, &m->now);
     if (code >= FASTSTRIP_FIRST_ERROR) {
         faststrip_wheelset_last_message(m->wheelset, text, sizeof text);
         return refuse_call(m, STATUS_DISCARD, code, text);
     }
-    m->is_solved = 1;
+    m->now.is_solved = 1;
+    m->is_elsewhere = 0;
+    m->slopes_are = UNKNOWN;
     if (m->is_logging) tell_doubts(m, code);
     return STATUS_OK;
 }
@@ -229,10 +233,9 @@ static int find_variable(model *m, unsigned int reference, enum kind kind, const
     return refuse(m, STATUS_ERROR, text);
 }
 
-static double real_of(const values *from, const variable *of)
+double real_at(unsigned int reference, const void *place)
 {
-    const void *place = (const char *)from + of->offset;
-    return of->kind == COUNT ? *(const int *)place : *(const double *)place;
+    return variables[reference].kind == COUNT ? *(const int *)place : *(const double *)place;
 }
 
 int read_variable(model *m, unsigned int reference, enum kind kind, const void **value)
@@ -241,14 +244,6 @@ int read_variable(model *m, unsigned int reference, enum kind kind, const void *
     int status = find_variable(m, reference, kind, &of);
     if (status == STATUS_OK && of->causality == OUTPUT) status = solve_model(m);
     if (status == STATUS_OK) *value = (const char *)&m->now + of->offset;
-    return status;
-}
-
-int read_real(model *m, unsigned int reference, double *value)
-{
-    const void *place;
-    int status = read_variable(m, reference, REAL, &place);
-    if (status == STATUS_OK) *value = real_of(&m->now, &variables[reference]);
     return status;
 }
 
@@ -270,50 +265,28 @@ int write_variable(model *m, unsigned int reference, enum kind kind, const void 
     }
     if (memcmp(place, value, size) == 0) return STATUS_OK;
     memcpy(place, value, size);
-    m->is_solved = 0;
-    if (of->causality == PARAMETER) {
-        faststrip_wheelset_free(&m->wheelset);
-        faststrip_wheelset_free(&m->near);
-    }
+    m->now.is_solved = 0;
+    if (of->causality == PARAMETER) faststrip_wheelset_free(&m->wheelset);
     return STATUS_OK;
 }
 
 /* States */
 
-/* `near` needs no copy: it is written over before each use. */
-static int copy_model(model *m, const model *from, model *to)
-{
-    int code, status = STATUS_OK;
-    memcpy(&to->now, &from->now, sizeof to->now);
-    to->is_solved = from->is_solved;
-    to->slopes_are = UNKNOWN;
-    if (!from->wheelset) {
-        faststrip_wheelset_free(&to->wheelset);
-        faststrip_wheelset_free(&to->near);
-        return STATUS_OK;
-    }
-    if (!to->wheelset) status = make_wheelset(m, &to->wheelset);
-    if (status != STATUS_OK) return status;
-    code = faststrip_wheelset_copy(from->wheelset, to->wheelset);
-    return code < FASTSTRIP_FIRST_ERROR ? STATUS_OK
-           : refuse_call(m, STATUS_ERROR, code, "a state cannot be copied");
-}
-
-static int need_state(model *m, void **state)
-{
-    if (!*state) *state = calloc(1, sizeof(model));
-    return *state ? STATUS_OK : refuse(m, STATUS_ERROR, "there is no memory for a state");
-}
-
 int keep_state(model *m, void **state)
 {
-    int status = need_state(m, state);
-    return status == STATUS_OK ? copy_model(m, m, *state) : status;
+    if (!*state) *state = malloc(sizeof(values));
+    if (!*state) return refuse(m, STATUS_ERROR, "there is no memory for a state");
+    memcpy(*state, &m->now, sizeof(values));
+    return STATUS_OK;
 }
 
-int restore_state(model *m, const void *state)
+void restore_state(model *m, const void *state)
 {
-    return copy_model(m, state, m);
+    size_t first = offsetof(values, profile), size = offsetof(values, demand) - first;
+    if (memcmp((const char *)state + first, (const char *)&m->now + first, size) != 0)
+        faststrip_wheelset_free(&m->wheelset);
+    memcpy(&m->now, state, sizeof(values));
+    m->is_elsewhere = 1;
 }
 
 size_t state_size(void)
@@ -325,23 +298,19 @@ int write_state(model *m, const void *state, void *bytes, size_t size)
 {
     if (size < state_size()) return refuse(m, STATUS_ERROR, "the bytes are too few for a state");
     memcpy(bytes, UNIT_TOKEN, sizeof UNIT_TOKEN);
-    memcpy((char *)bytes + sizeof UNIT_TOKEN, &((const model *)state)->now, sizeof(values));
+    memcpy((char *)bytes + sizeof UNIT_TOKEN, state, sizeof(values));
     return STATUS_OK;
 }
 
 int read_state(model *m, const void *bytes, size_t size, void **state)
 {
-    model *to;
     int status;
     if (size != state_size() || memcmp(bytes, UNIT_TOKEN, sizeof UNIT_TOKEN) != 0)
         return refuse(m, STATUS_ERROR, "the bytes are not those of a state of this unit");
-    status = need_state(m, state);
+    status = keep_state(m, state);
     if (status != STATUS_OK) return status;
-    to = *state;
-    memcpy(&to->now, (const char *)bytes + sizeof UNIT_TOKEN, sizeof(values));
-    for (int i = 0; i < 4; i++) to->now.profile[i][PATH_LENGTH - 1] = '\0';
-    faststrip_wheelset_free(&to->wheelset);
-    to->is_solved = 0;
+    memcpy(*state, (const char *)bytes + sizeof UNIT_TOKEN, sizeof(values));
+    for (int i = 0; i < 4; i++) ((values *)*state)->profile[i][PATH_LENGTH - 1] = '\0';
     return STATUS_OK;
 }
 
@@ -367,8 +336,8 @@ static int column_of(int i)
     return i < 4 ? i : i > 4 && i < 9 ? i - 1 : -1;
 }
 
-/* The outputs on both sides of the inputs along a direction, on one where the other has no solution,
- * and how far they are apart; 0 where the direction is none. */
+/* The outputs on both sides of the inputs along a direction, on one where the other has no
+ * solution, and how far they are apart; 0 where the direction is none. */
 typedef struct difference {
     double direction[N_STATE];
     int is_found;
@@ -378,7 +347,9 @@ typedef struct difference {
 
 static int find_difference(model *m, difference *along)
 {
+    faststrip_wheelset_demand demand = m->now.demand;
     double step = INFINITY;
+    demand.warm_start = 1;
     for (int i = 0; i < N_VARIABLES; i++) {
         size_t k = (variables[i].offset - offsetof(values, state)) / sizeof(double);
         if (variables[i].causality == INPUT && along->direction[k] != 0.0)
@@ -389,13 +360,10 @@ static int find_difference(model *m, difference *along)
     for (int i = 0; i < 2; i++) {
         faststrip_wheelset_state state = m->now.state;
         double *numbers = (double *)&state;
-        int code = faststrip_wheelset_copy(m->wheelset, m->near);
         for (int k = 0; k < N_STATE; k++)
             numbers[k] += (i == 0 ? -step : step) * along->direction[k];
         memcpy(&along->side[i], &m->now, sizeof(values));
-        if (code < FASTSTRIP_FIRST_ERROR
-            && solve_state(m->near, &state, &m->now.demand, &along->side[i])
-               < FASTSTRIP_FIRST_ERROR)
+        if (solve_state(m, &state, &demand, &along->side[i]) < FASTSTRIP_FIRST_ERROR)
             along->distance += step;
     }
     return along->distance > 0.0 ? STATUS_OK
@@ -407,7 +375,9 @@ int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsi
 {
     difference all = {.distance = 0.0}, others = all, *along;
     const variable *of;
-    int status = solve_model(m);
+    int status;
+    if (m->is_elsewhere) m->now.is_solved = 0;
+    status = solve_model(m);
     if (status != STATUS_OK) return status;
     for (size_t i = 0; i < k; i++) {
         status = find_variable(m, inputs[i], REAL, &of);
@@ -432,9 +402,11 @@ int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsi
         along = row >= 0 ? &others : &all;
         if (!along->is_found) status = find_difference(m, along);
         if (status != STATUS_OK) return status;
-        derivatives[i] = along->distance > 0.0
-                         ? (real_of(&along->side[1], of) - real_of(&along->side[0], of))
-                           / along->distance : 0.0;
+        derivatives[i] = 0.0;
+        if (along->distance > 0.0)
+            derivatives[i] = (real_at(outputs[i], (const char *)&along->side[1] + of->offset)
+                              - real_at(outputs[i], (const char *)&along->side[0] + of->offset))
+                             / along->distance;
         for (int j = 0; row >= 0 && j < N_STATE; j++)
             if (column_of(j) >= 0)
                 derivatives[i] += m->slopes[row / 6][row % 6][column_of(j)] * all.direction[j];

@@ -1,6 +1,6 @@
 /* A wheelset as a functional mock-up unit has it: variables by number, on the C interface. What
- * belongs to one version of FMI is in fmi2.c and fmi3.c; the table of the variables, `variables.h`,
- * is written by tools/building/fmu.py. */
+ * belongs to one version of FMI is in fmi2.c and fmi3.c, to both of them in both.h; the table of the
+ * variables, `variables.h`, is written by tools/building/fmu.py. */
 #ifndef MODEL_H
 #define MODEL_H
 
@@ -27,10 +27,12 @@ typedef struct side {
     faststrip_wheelset_contact contact[SHOWN];
 } side;
 
-/* All that has a variable; of plain bytes, as a state is kept and serialised. */
+/* All that has a variable, parameters from `profile` to before `demand`. A state is no more, in plain
+ * bytes: the library's memory of its last solution only shortens the next one. */
 typedef struct values {
     double time;
     int is_running; /* initialized: parameters stay */
+    int is_solved;  /* do the outputs belong to the inputs? */
     char profile[4][PATH_LENGTH]; /* right and left wheel, right and left rail */
     faststrip_wheelset_setup setup;
     faststrip_case contact;
@@ -42,9 +44,8 @@ typedef struct values {
 
 typedef struct model {
     values now;
-    int is_solved;                /* do the outputs belong to the inputs? */
     faststrip_wheelset *wheelset; /* null: to be made of the parameters */
-    faststrip_wheelset *near;     /* for solutions beside it */
+    int is_elsewhere;             /* its last solution is none to start from */
     enum { UNKNOWN, KNOWN, NONE } slopes_are;
     double slopes[2][6][8];       /* derivatives of the library at the last solution */
     int is_logging;
@@ -70,14 +71,15 @@ int solve_model(model *m);
 
 /* *value becomes the place of a variable of that kind, solved for if it is an output. */
 int read_variable(model *m, unsigned int reference, enum kind kind, const void **value);
-int read_real(model *m, unsigned int reference, double *value);
+/* The real of a variable at its place. */
+double real_at(unsigned int reference, const void *place);
 int write_variable(model *m, unsigned int reference, enum kind kind, const void *value);
 
-/* A state is a model without a master, freed as one: *state is made where it is null. */
+/* *state is made where it is null, and freed by free(). */
 int keep_state(model *m, void **state);
-int restore_state(model *m, const void *state);
+void restore_state(model *m, const void *state);
 
-/* The bytes of a state. Its wheelset is solved anew when such a state is restored. */
+/* The same as bytes. */
 size_t state_size(void);
 int write_state(model *m, const void *state, void *bytes, size_t size);
 int read_state(model *m, const void *bytes, size_t size, void **state);
