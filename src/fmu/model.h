@@ -1,5 +1,5 @@
 /* A wheelset as a functional mock-up unit has it: variables by number, on the C interface. What
- * belongs to one version of FMI is in fmi2.c and fmi3.c, to both of them in both.h; the table of the
+ * belongs to one version of FMI is in fmi2.c and fmi3.c, to both in both.h; the table of the
  * variables, `variables.h`, is written by tools/building/fmu.py. */
 #ifndef MODEL_H
 #define MODEL_H
@@ -27,8 +27,8 @@ typedef struct side {
     faststrip_wheelset_contact contact[SHOWN];
 } side;
 
-/* All that has a variable, parameters from `profile` to before `demand`. A state is no more, in plain
- * bytes: the library's memory of its last solution only shortens the next one. */
+/* All that has a variable; what a wheelset is made of from `profile` to before `demand`. A state is
+ * no more, in plain bytes: the library's memory of its last solution only shortens the next. */
 typedef struct values {
     double time;
     int is_running; /* initialized: parameters stay */

@@ -8,7 +8,8 @@ import zipfile
 
 import numpy as np
 
-from installed import ROOT, HostTest
+import blocks
+from installed import ROOT, HostTest, bits
 
 NO_FMPY = ("" if importlib.util.find_spec("fmpy")
            else "fmpy not installed: tools/requirements-fmu.txt")
@@ -308,3 +309,55 @@ class Units(HostTest):
             about.guid = about.instantiationToken = "another"
             with self.assertRaisesRegex(Exception, "instantiate"):
                 Unit(self.fmpy, self.unpacked[version], about)
+
+
+MODELICA_HOST = """
+#include <stdio.h>
+#include <stdlib.h>
+#include "wheelset_modelica.h"
+void ModelicaError(const char *text)
+{
+    puts(text);
+    exit(1);
+}
+int main(void)
+{
+    double motion[10] = {2.0, 0.3, 1e-5, 1e-3, 2e4, 3.0, 1.0, 2e-3, 3e-3, -43.0}, found[12];
+    void *wheelset = wheelset_open(0.35);
+    for (int i = 0; i < 2; i++) {
+        wheelset_forces(wheelset, motion, found, found + 6);
+        for (int k = 0; k < 12; k++) {
+            unsigned long long digits;
+            memcpy(&digits, &found[k], sizeof digits);
+            printf("%016llX%c", digits, k == 11 ? '\\n' : ' ');
+        }
+        motion[0] = 2.01;
+    }
+    motion[3] = 9.0;
+    wheelset_forces(wheelset, motion, found, found + 6);
+    wheelset_close(wheelset);
+}
+"""
+
+
+class Modelica(HostTest):
+    def test_the_c_file_of_the_documentation_has_the_bits(self):
+        page = (ROOT / "docs" / "embedding.md").read_text(encoding="utf-8")
+        text, = (block.text for block in blocks.blocks_of(page)
+                 if block.language == "c" and "ModelicaUtilities" in block.text)
+        self.write("wheelset_modelica.h", text)
+        self.write("ModelicaUtilities.h", "void ModelicaError(const char *text);\n")
+        self.write("modelica.c", MODELICA_HOST)
+        self.shell("gcc -Wall -Wextra -Werror -I. modelica.c"
+                   " $(pkg-config --cflags --libs faststrip) -o modelica")
+        wheelset = self.import_package().Wheelset(mu=0.35)
+        expected = []
+        for y in (2.0, 2.01):
+            result = wheelset.solve(y=y, z=0.3, roll=1e-5, yaw=1e-3, speed=2e4, y_rate=3.0,
+                                    z_rate=1.0, roll_rate=2e-3, yaw_rate=3e-3, pitch_rate=-43.0,
+                                    warm_start=True)
+            self.assertGreater(result.force[:, 2].min(), 1e4)
+            expected.append(bits(*result.force.ravel(), *result.moment.ravel()))
+        *found, said = self.shell("./modelica || true").splitlines()
+        self.assertEqual(found, expected)
+        self.assertIn("yaw", said)
