@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Make the functional mock-up units faststrip_wheelset_2.fmu and faststrip_wheelset_3.fmu, of FMI
-2.0 and 3.0, of the C sources in src/fmu and an installed library.
+2.0 and 3.0, of the C sources in fmu and an installed library.
 
     fmu.py --prefix FOLDER --folder FOLDER [FILE...]
 
@@ -27,7 +27,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "tools" / "generate"))
 from fmu_variables import NAME, c_table, description, variables  # noqa: E402
 
-SOURCES = ROOT / "src" / "fmu"
+SOURCES = ROOT / "fmu"
 WARNINGS = ("-Wall", "-Wextra", "-Werror", "-Wno-unused-parameter")
 OWN_LAPACK = ("dpbtrf", "dpbtrs")
 BUNDLED = ("libgfortran", "libquadmath")

@@ -89,6 +89,7 @@ OWN_STAGES = {
     "tabulate": [("python", ["test/cli/test_lookup.py", "test/cli/test_lookup_wheel.py"])],
     "lab": [("python", ["test/cli/test_claims.py", "test/cli/test_force_data.py"])],
     "python": [("installed", [*INTERFACES[:3], INTERFACES[-1]])],
+    "fmu": [("installed", ["test/embed/test_fmu.py"])],
     "plots": [("python", ["test/plots"])],
     "tools": [("python", ["test/tools/test_blocks.py"])],
 }
@@ -460,7 +461,7 @@ class Job:
             source.write_text(text, encoding="utf-8")
             self.clear()
             try:
-                if source.suffix in (".f90", ".c"):
+                if any(one.name == mutant.file for one in self.base.sources):
                     self.compile(mutant.file)
                 elif source.suffix == ".py":
                     compile(text, mutant.file, "exec")

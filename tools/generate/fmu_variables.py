@@ -31,7 +31,7 @@ UNITS = {
 }
 SIDES = ("right", "left")
 AXES = ("x", "y", "z")
-# As SHOWN of src/fmu/model.h.
+# As SHOWN of fmu/model.h.
 CONTACTS = 3
 # Name, member of a struct of the header, type or unit, what it is.
 PARAMETERS = """
