@@ -461,7 +461,7 @@ class Job:
             source.write_text(text, encoding="utf-8")
             self.clear()
             try:
-                if any(one.name == mutant.file for one in self.base.sources):
+                if source.suffix in (".f90", ".c"):
                     self.compile(mutant.file)
                 elif source.suffix == ".py":
                     compile(text, mutant.file, "exec")
