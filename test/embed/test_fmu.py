@@ -20,8 +20,9 @@ RAIL = ("y", "z", "roll", "y_rate", "z_rate", "roll_rate")
 SIDES = ("right", "left")
 FORCES = [f"wheel_{side}.{what}_{axis}" for side in SIDES for what in ("force", "moment")
           for axis in "xyz"]
-CONTACTS = [f"wheel_{side}.contact[1].{name}" for side in SIDES
-            for name in ("load", "fx", "fy", "mz", "pmax", "cksi", "place_y", "angle")]
+CONTACTS = [f"wheel_{side}.{name}" for side in SIDES for name in (
+    "n_contacts", "contact[2].load", *(f"contact[1].{one}" for one in (
+        "load", "fx", "fy", "mz", "pmax", "cksi", "place_y", "angle")))]
 MEASURED = "worn_wheel.whl"
 STATE = {"y": 2.0, "roll": 2e-5, "yaw": 1.5e-3, "speed": 2e4, "y_rate": 4.0, "yaw_rate": 2e-3,
          "rail_right.y": 0.3, "rail_left.z": -0.02, "rail_left.y_rate": 2.0}
@@ -45,6 +46,7 @@ def outputs_of(result):
              for number in (*result.force[side], *result.moment[side])]
     for side in SIDES:
         mine = [one for one in result.contacts if one.side == side]
+        found += [float(len(mine)), mine[1].load if len(mine) > 1 else 0.0]
         found += ([0.0] * 8 if not mine else
                   [mine[0].load, mine[0].fx, mine[0].fy, mine[0].mz, mine[0].pmax, mine[0].cksi,
                    mine[0].place[1], mine[0].contact_angle])
@@ -160,9 +162,9 @@ class Units(HostTest):
         """Inputs and outputs of a simulation by FMPy, row by row."""
         times = np.arange(0.0, 25.0)
         turn = 0.25 * times
-        signals = {"y": 7.0 * np.sin(turn), "z": self.rest + 0.01 * np.cos(3.0 * turn),
-                   "yaw": 2e-3 * np.cos(turn), "roll": 2e-4 * np.sin(turn),
-                   "y_rate": 40.0 * np.cos(turn), "rail_left.z": 0.02 * np.sin(2.0 * turn),
+        signals = {"y": 3.0 * np.sin(turn), "z": self.rest + 0.01 * np.cos(3.0 * turn),
+                   "yaw": 2e-3 * np.cos(turn), "roll": 1e-5 * np.sin(turn),
+                   "y_rate": 0.75 * np.cos(turn), "rail_left.z": 0.02 * np.sin(2.0 * turn),
                    "speed": 0.0 * times + 2e4}
         rows = np.array(list(zip(times, *signals.values(), strict=True)),
                         dtype=[(name, float) for name in ("time", *signals)])
@@ -205,13 +207,30 @@ class Units(HostTest):
             inclination=0.05, normal="hertz", tangential="polach", mu=0.25,
             friction=self.faststrip.Friction(flange_share=0.5, tread_angle=0.1, flange_angle=0.6))
         state = self.here(z=self.rest + 0.15, **{"rail_right.y": 0.0})
-        expected = outputs_of(wheelset.solve(**motion_of(state)))
-        self.assertGreater(expected[2], 0.0)
+        solved = wheelset.solve(**motion_of(state))
+        expected = outputs_of(solved)
+        self.assertGreater(solved.status, 0)
         for version in (2, 3):
             unit = self.unit(version).start(**parameters)
             unit.set(state)
             self.assertEqual(list(unit.get([*FORCES, *CONTACTS])), expected)
+            statuses = unit.get([f"wheel_{side}.contact[1].status" for side in SIDES])
+            self.assertEqual([self.faststrip._library.word_of(int(number)) for number in statuses],
+                             [next(one.word for one in solved.contacts if one.side == side)
+                              for side in SIDES])
+            self.assertEqual(solved.status, max(unit.get(["wheel_right.status",
+                                                          "wheel_left.status"])))
             self.assertEqual(self.failing(unit.set, {"mu": 0.3}), 3)
+
+    def test_two_contacts_of_a_wheel(self):
+        wheel = self.faststrip.Profile.read(ROOT / "example" / "cases" / MEASURED)
+        state = {"y": 1.5, "z": -0.62827, "roll": -3.6224e-4, "speed": 2e4}
+        expected = outputs_of(self.faststrip.Wheelset(wheel).solve(**state))
+        unit = self.unit(3).start(**{"wheel_right.profile": MEASURED})
+        unit.set(state)
+        self.assertEqual(list(unit.get([*FORCES, *CONTACTS])), expected)
+        self.assertEqual(list(unit.get(["wheel_right.n_contacts", "wheel_left.n_contacts"])),
+                         [1.0, 2.0])
 
     def test_static_equilibrium(self):
         unit = self.unit(3).start(demand=3, axle_load=1.2e5)
