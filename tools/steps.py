@@ -54,7 +54,8 @@
                 source distribution and the sources with the site; in out/release/
   docs          build the site: pages, run where they have pictures, and the Fortran interface;
                 in out/docs/
-  embed         build, then time calls from Fortran, F77, C and Python; in out/embed/
+  embed         build, then time calls from Fortran, F77, C and Python, and a vehicle's next call
+                of a wheelset; in out/embed/
   tables        build, then audit, remake, time and draw the coefficient tables; in out/tables/
   compilers     try to build with gfortran 12 and the newest gfortran and flang of Debian
   clean [all]   remove what was built; with `all` also .venv
@@ -882,7 +883,8 @@ def embed():
     install_below(ROOT / "build" / "embed")
     do(sys.executable, "tools/measure/bench_embed.py", "--prefix", "build/embed", "-o",
        f"{out}/bench_embed.csv")
-    heading(f"done: the table is {out}/bench_embed.csv")
+    do("bin/faststrip-lab", "bench", "host", "-o", f"{out}/bench_host.csv")
+    heading(f"done: the tables are {out}/bench_embed.csv and {out}/bench_host.csv")
 
 
 def compilers():

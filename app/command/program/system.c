@@ -1,6 +1,8 @@
 /* What the program needs of the operating system and Fortran does not have: which file a path
- * means, and signals. Everything that a signal handler calls here is safe there. */
+ * means, signals, and counted instructions. Everything that a signal handler calls here is safe
+ * there. */
 #define _XOPEN_SOURCE 700
+#define _DEFAULT_SOURCE /* syscall */
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
@@ -18,6 +20,10 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
+#if defined(__linux__)
+#include <linux/perf_event.h>
+#include <sys/syscall.h>
+#endif
 
 #if defined(__GNUC__)
 /* Only OpenBLAS has it. */
@@ -491,4 +497,28 @@ void faststrip_remove_folder(const char *folder)
             unlink(path);
     closedir(stream);
     rmdir(folder);
+}
+
+/* Instructions of the calling thread so far, counted from the first call on; -1 where the machine
+ * has no counter for them or the kernel does not let us have it. Only one thread may call it. */
+long long faststrip_instructions(void)
+{
+    long long count = -1;
+#if defined(__linux__)
+    static int counter = -1, is_tried;
+    struct perf_event_attr about;
+
+    if (!is_tried) {
+        is_tried = 1;
+        memset(&about, 0, sizeof about);
+        about.type = PERF_TYPE_HARDWARE;
+        about.size = sizeof about;
+        about.config = PERF_COUNT_HW_INSTRUCTIONS;
+        about.exclude_kernel = about.exclude_hv = 1;
+        counter = (int)syscall(SYS_perf_event_open, &about, 0, -1, -1, PERF_FLAG_FD_CLOEXEC);
+    }
+    if (counter < 0 || read(counter, &count, sizeof count) != (ssize_t)sizeof count)
+        return -1;
+#endif
+    return count;
 }

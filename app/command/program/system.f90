@@ -1,4 +1,4 @@
-!> The operating system: which file a path means, signals, progress of long work.
+!> The operating system: which file a path means, signals, progress of long work, instructions.
 module faststrip_command_program_system
     use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long_long, c_null_char
     !$ use omp_lib, only: omp_in_parallel
@@ -9,7 +9,7 @@ module faststrip_command_program_system
     public :: keep_in_mind, forget_file
     public :: remove_leftovers, start_signals, set_progress, set_detail, set_speaker, is_printed
     public :: be_quiet, use_one_thread_each, become, run_program, program_folder
-    public :: is_terminal, make_folders, new_folder, remove_folder
+    public :: is_terminal, make_folders, new_folder, remove_folder, instructions
     public :: kind_none, kind_file, kind_folder, kind_pipe
 
     !> Kinds of files.
@@ -133,6 +133,12 @@ module faststrip_command_program_system
             import :: c_char
             character(kind=c_char), intent(in) :: name(*)
         end subroutine c_set_speaker
+
+        !> Instructions of the calling thread so far, from the first call on; -1: not to be had.
+        function instructions() bind(c, name='faststrip_instructions') result(count)
+            import :: c_long_long
+            integer(c_long_long) :: count
+        end function instructions
 
         subroutine c_set_progress(text) bind(c, name='faststrip_set_progress')
             import :: c_char

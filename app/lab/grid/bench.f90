@@ -21,6 +21,7 @@ module faststrip_lab_grid_bench
     use faststrip_lab_studies_correction, only: bench_correction
     use faststrip_lab_grid_examples, only: bench_examples
     use faststrip_lab_grid_trade, only: bench_trade
+    use faststrip_lab_studies_host, only: bench_host
     use faststrip_lab_studies_estimates, only: run_estimates_study
     use faststrip_lab_checkout, only: in_checkout
     implicit none
@@ -58,6 +59,11 @@ module faststrip_lab_grid_bench
                 // 'in one run: what ./run speed sets beside FASTSIM and CONTACT. A row a method ' &
                 // 'and contact, least of the rounds; also influence coefficients of 15 strips, ' &
                 // 'centre and tip, and the states of example/wheelset_states.csv'), &
+        bench_t('host', '--case --rounds --quick', &
+                'microseconds of a vehicle''s next call of both wheels, 1, 10 and 100 um on: ' &
+                // 'straight, curve, two contacts, flange root, from -8 to 8 mm (all); z given, ' &
+                // 'loads, free roll; forces alone, with estimates, with derivatives; S1002 on ' &
+                // '60E1, then the wheelset of a case. ratio: to FASTSIM on 50 x 50 elements'), &
         bench_t('reference', '--contacts --most-elements --seconds', &
                 'microseconds Kalker''s variational method takes with 500 to 200000 elements ' &
                 // 'in contact: cold with new plans and with old ones, from a coarser grid, from ' &
@@ -131,6 +137,9 @@ contains
         case ('speed')
             call bench_speed(file, input('--methods', 'reference/speed_methods.csv'), contacts(), &
                              rounds, quick)
+        case ('host')
+            call bench_host(file, input('--case', 'example/cases/worn_wheel.nml'), &
+                            option_integer(command, '--rounds', 3, least=1, most=1000), quick)
         case ('reference')
             call bench_reference(file, contacts(), most_elements(bench_reference_most_elements), &
                                  seconds())
@@ -232,8 +241,11 @@ contains
                         // 'worst; OPENBLAS_NUM_THREADS=1 keeps them to one core.' // nl
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
-            option_t('--rounds', 'N', 'how often all is timed, 1 to 1000 (default 21; tang 3)'), &
+            option_t('--rounds', 'N', &
+                     'how often all is timed, 1 to 1000 (default 21; host, tang 3)'), &
             option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)', &
+                     reads=.true.), &
+            option_t('--case', 'FILE', 'a wheelset (default example/cases/worn_wheel.nml)', &
                      reads=.true.), &
             option_t('--strips', 'N', 'strips of the widest patch (default 15)'), &
             option_t('--most-strips', 'N', 'no more strips than that'), &

@@ -32,7 +32,7 @@ module faststrip_lab_grid_normal
     implicit none
     private
 
-    public :: bench_normal, bench_normal_most_strips
+    public :: bench_normal, bench_normal_most_strips, fastsim_time
 
     !> The largest number of strips that is measured.
     integer, parameter :: bench_normal_most_strips = 400
@@ -146,7 +146,7 @@ contains
         call system_clock(begin)
         do k = 1, size(bench%cases)
             i = scattered(k, size(bench%cases))
-            fastsim_us = fastsim_time(bench, i)
+            fastsim_us = fastsim_time(bench%cases(i), bench%material)
             if (fastsim_us > 0.0_wp) then
                 n_fastsim = n_fastsim + 1
                 fastsim(n_fastsim) = fastsim_us
@@ -318,9 +318,9 @@ contains
     end function operation_time
 
     !> Time of FASTSIM on the Hertz ellipse of a contact, us; not a number if it has none.
-    real(wp) function fastsim_time(bench, i) result(time)
-        type(bench_t), intent(in) :: bench
-        integer, intent(in) :: i
+    real(wp) function fastsim_time(case, material) result(time)
+        type(bench_case_t), intent(in) :: case     !! its gap, load, creepages
+        type(material_t), intent(in) :: material   !! MPa
 
         integer, parameter :: runs = 7, repetitions = 20
         type(gap_curve_t) :: curve
@@ -331,18 +331,17 @@ contains
         integer :: run, k
 
         time = ieee_value(time, ieee_quiet_nan)
-        call reserve_gap_curve(curve, size(bench%cases(i)%gap%y), status)
+        call reserve_gap_curve(curve, size(case%gap%y), status)
         call fail_on_error(status)
-        call set_gap_curve(curve, bench%cases(i)%gap, status)
+        call set_gap_curve(curve, case%gap, status)
         call fail_on_error(status)
-        call hertz_solve_gap(curve, normal_compliance(bench%material), bench%cases(i)%load, &
-                             hertz, status)
+        call hertz_solve_gap(curve, normal_compliance(material), case%load, hertz, status)
         if (is_error(status)) return
         do run = 1, runs
             from = cpu_microseconds()
             do k = 1, repetitions
-                call fastsim_solve(hertz, bench%material, mu, bench%cases(i)%creepage, &
-                                   fastsim_elements, fastsim_elements, result, status)
+                call fastsim_solve(hertz, material, mu, case%creepage, fastsim_elements, &
+                                   fastsim_elements, result, status)
             end do
             us(run) = (cpu_microseconds() - from)/repetitions
             if (is_error(status)) return
