@@ -6,7 +6,8 @@ import itertools
 from cli_program import ROOT, LabTest
 
 COLUMNS = ("pair,walk,step_um,demand,with,calls,ok_share,cpu_us_median,cpu_us_p95,cpu_us_worst,"
-           "worst_y_mm,fastsim_us,ratio,kinstructions_median,kinstructions_worst,cpu").split(",")
+           "worst_y_mm,fastsim_us,ratio,solutions_median,solutions_worst,kinstructions_median,"
+           "kinstructions_worst,cpu").split(",")
 PAIRS = ("s1002 on 60e1", "worn_wheel.txt on 60e1")
 WALKS = {"straight": (-0.5, 0.5), "curve": (3.0, 4.0), "two contacts": (5.0, 6.0),
          "flange root": (6.5, 7.5), "all": (-8.0, 8.0)}
@@ -35,7 +36,17 @@ class Host(LabTest):
             self.assert_close(float(row["ratio"]), times[0] / float(row["fastsim_us"]), 1e-12)
             self.assertEqual(int(row["calls"]), 32 if row["walk"] == "all" else 5, row)
             first, last = WALKS[row["walk"]]
-            self.assertTrue(first <= float(row["worst_y_mm"]) <= last, row)
+            if row["walk"] != "all":  # from the middle on
+                first, last = (0.5 * (first + last) + n * 1e-3 * float(row["step_um"])
+                               for n in (0.999, 5.001))
+            self.assertTrue(first < float(row["worst_y_mm"]) <= last, row)
+            solved = float(row["solutions_median"]), float(row["solutions_worst"])
+            self.assertTrue(2.0 <= solved[0] <= solved[1], row)
+            # One a contact where z is given; a free roll takes several.
+            if row["demand"] == "z given":
+                self.assertTrue(solved[0] == 2.0 and solved[1] <= 4.0, row)
+            elif row["demand"] == "free roll":
+                self.assertGreater(solved[0], 2.0, row)
             # Estimates may call a contact under-resolved; nothing else may be wrong on a tread.
             least = 0.95 if row["with"] == "forces" and row["walk"] in ("straight", "curve") else 0
             self.assertTrue(least <= float(row["ok_share"]) <= 1.0, row)

@@ -76,6 +76,7 @@ module faststrip_lab_studies_host
         type(wheelset_state_t), allocatable :: state(:)
         real(wp), allocatable :: us(:)           !! least of the rounds
         real(wp), allocatable :: instructions(:) !! thousands; so, too
+        real(wp), allocatable :: solutions(:)    !! contact problems that were solved, both wheels
         logical, allocatable :: is_ok(:)
     end type calls_t
 
@@ -105,7 +106,8 @@ contains
         call begin_table(writer, file)
         call put_header(writer, [character(len=20) :: 'pair', 'walk', 'step_um', 'demand', 'with', &
                                  'calls', 'ok_share', cpu_columns, 'worst_y_mm', 'fastsim_us', &
-                                 'ratio', 'kinstructions_median', 'kinstructions_worst', 'cpu'])
+                                 'ratio', 'solutions_median', 'solutions_worst', &
+                                 'kinstructions_median', 'kinstructions_worst', 'cpu'])
         do i = 1, size(pairs)
             do walk = 1, size(walks)
                 do step = 1, merge(1, size(steps), walk == all_of_it)
@@ -128,11 +130,12 @@ contains
     contains
 
         subroutine put_walk()
-            real(wp) :: us(3), thousands(3)
+            real(wp) :: us(3), solutions(3), thousands(3)
             integer :: n
 
             n = size(calls%us)
             us = spread_of(calls%us)
+            solutions = spread_of(calls%solutions)
             thousands = spread_of(calls%instructions)
             call put_cell(writer, pairs(i)%name)
             call put_cell(writer, trim(walks(walk)%name))
@@ -142,7 +145,7 @@ contains
             call put_cell(writer, n)
             call put_cells(writer, [real(count(calls%is_ok), wp)/n, us, &
                                     calls%state(maxloc(calls%us, 1))%y, fastsim_us, &
-                                    us(1)/fastsim_us])
+                                    us(1)/fastsim_us, solutions(1), solutions(3)])
             call put_cell(writer, thousands(1), is_known=counts)
             call put_cell(writer, thousands(3), is_known=counts)
             call put_cell(writer, cpu_name())
@@ -187,7 +190,8 @@ contains
         width = walk%y(2) - walk%y(1)
         n = merge(few_calls, usual_calls, quick)
         if (is_whole) n = nint(width/step)
-        allocate (calls%state(0:n), calls%us(n), calls%instructions(n), calls%is_ok(n))
+        allocate (calls%state(0:n), calls%us(n), calls%instructions(n), &
+                  calls%solutions(n), calls%is_ok(n))
         state%speed = speed
         pair%workspace%has_last = .false.
         do i = 0, n
@@ -245,6 +249,7 @@ contains
                 if (i == 0) cycle
                 calls%us(i) = min(calls%us(i), from)
                 calls%instructions(i) = min(calls%instructions(i), counted)
+                calls%solutions(i) = sum(pair%result%wheel%solutions)
                 calls%is_ok(i) = status%code == st_ok .and. last%code == st_ok
             end do
         end do
