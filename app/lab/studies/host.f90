@@ -173,8 +173,8 @@ contains
         pair%name = case%bodies%wheel%name // ' on ' // case%bodies%rail%name
     end subroutine make_pair
 
-    !> The states of a walk: from its middle there and back, or once from end to end. Heights and
-    !> rolls are those of both wheels under their loads; where there are none, the last ones.
+    !> The states of a walk, there and back, or all of it once from end to end. Heights and rolls
+    !> are those of both wheels under their loads; where there are none, the last ones.
     subroutine make_walk(pair, walk, step, is_whole, quick, calls)
         type(pair_t), intent(inout) :: pair
         type(walk_t), intent(in) :: walk
@@ -184,7 +184,7 @@ contains
 
         type(wheelset_state_t) :: state
         type(status_t) :: status
-        real(wp) :: width, way, share
+        real(wp) :: width, share
         integer :: i, n
 
         width = walk%y(2) - walk%y(1)
@@ -195,9 +195,7 @@ contains
         state%speed = speed
         pair%workspace%has_last = .false.
         do i = 0, n
-            way = i*step
-            if (.not. is_whole) way = modulo(0.5_wp*width + way, 2.0_wp*width)
-            share = 1.0_wp - abs(1.0_wp - way/width)
+            share = 1.0_wp - abs(1.0_wp - modulo(i*step/width, 2.0_wp))
             state%y = walk%y(1) + share*width
             state%yaw = walk%yaw(1) + share*(walk%yaw(2) - walk%yaw(1))
             call solve_wheelset(pair%model, pair%workspace, state, demand_of(roll_free), &
