@@ -31,6 +31,10 @@
   lookup [--quick]
                 build, install below build/, then make a table of creep forces and say what it
                 is worth: errors, size, time, look-ups a second; in out/lookup/
+  vehicle [--quick]
+                build, install below build/, then run a bogie through a curve and up to its limit
+                cycle with strips, Hertz and a table; pictures and figures in out/vehicle/; some
+                ten minutes (--quick: half a minute)
   page [-o FILE] [--moves N]
                 build, install below build/, then time faststrip-explore in a browser: from the
                 move of a slider to the picture; table in out/; some minutes
@@ -816,6 +820,17 @@ def lookup(*words):
         do(sys.executable, "plots/lookup.py")
 
 
+def vehicle(*words):
+    if not {"-h", "--help"} & set(words):
+        python_packages("vehicle", "scipy")
+        install_below(ROOT / "build" / "embed")
+    os.environ.update(FASTSTRIP_PREFIX=str(ROOT / "build" / "embed"),
+                      PYTHONPATH=str(ROOT / "python"))
+    do(sys.executable, "example/vehicle/run.py", *words)
+    if not {"-h", "--help"} & set(words):
+        heading("done: pictures and figures are in out/vehicle/")
+
+
 def install_below(prefix):
     build()
     shutil.rmtree("build/stage", ignore_errors=True)
@@ -928,12 +943,13 @@ FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 3
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
     build_step, test, lint, bare, mutants, hostile, fuzz, corrections, demo, strips, speed, scale,
-    lists, net, lookup, page, extremes, forces, scenes, stored, report, install, fmu, package,
+    lists, net, lookup, vehicle, page, extremes, forces, scenes, stored, report, install, fmu,
+    package,
     release, docs, embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"lint": 1, "bare": 1, "fuzz": 1, "clean": 1, **dict.fromkeys((
     "test", "install", "mutants", "hostile", "stored", "report", "speed", "scale", "net", "lookup",
-    "page", "release", "fmu"))}
+    "vehicle", "page", "release", "fmu"))}
 
 
 def main(command="", *words):
