@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, Optional
-
-import numpy as np
-from bogie import PITCH, RADIUS, ROLL, TREAD, YAW, Array, N, Y, Z
+from typing import Any
 
 import faststrip
+import numpy as np
+from bogie import PITCH, RADIUS, ROLL, TREAD, YAW, Array, N, Y, Z
 
 MU = 0.3
 # What is computed how; the table is made by `faststrip lookup wheel`.
@@ -70,7 +69,7 @@ class ByWheelset:
         result = self.solve(motion)
         return -np.hstack([result.force, result.moment])
 
-    def derivatives(self, motion: Motion) -> Optional[Array]:
+    def derivatives(self, motion: Motion) -> Array | None:
         """Of the forces on both wheels together over coordinates and rates: (6, 2, N). None where
         contacts come or go at this very state."""
         wheels = -self.solve(motion, derivatives=True).derivatives
@@ -88,6 +87,8 @@ class ByWheelset:
 
 class ByTable:
     """Contacts looked up in a table of one wheel, its roll and yaw 0.
+
+    Beyond the loads of the table forces go on in proportion to the load, down to none.
 
     Parameters
     ----------
@@ -124,16 +125,21 @@ class ByTable:
         y = side * (q[Y] - rail_y) - roll * RADIUS
         load = self._loads
         for _ in range(20):
-            found, slope, out, numbers = self._heights(y, load)
+            known = np.clip(load, *self.table.load)
+            found, slope, out, numbers = self._heights(y, known)
             z = q[Z] + roll * out - rail_z
-            # The approach goes with the load to 2/3: so does the step.
-            power = load ** (2 / 3) + (z - found) / slope * 2 / 3 * load ** (-1 / 3)
-            change = np.clip(power, 1.0, None) ** 1.5 - load
-            load = np.clip(load + change, *self.table.load)
-            if (np.abs(change) < 1e-6 * load).all():
+            # The approach goes with the load to 2/3: so does the step, and so beyond the table.
+            power = known ** (2 / 3) + (z - found) / slope * 2 / 3 * known ** (-1 / 3)
+            last, load = load, np.clip(power, 0.0, None) ** 1.5
+            if (np.abs(load - last) <= 1e-6 * known).all():
                 break
         self._loads = load
+        share = (load / known)[:, None]
         normal, angle, _, _, x, y_wheel, radius = np.moveaxis(numbers[..., :7], -1, 0)
+        # Creepages are those of the surface before it is deformed, the radius is that after. By
+        # Hertz between them lies 3/2 of the load times its compliance.
+        radius = radius + 1.5 * (known * slope)[:, None]
+        normal = normal * share
         cos, sin = np.cos(angle), np.sin(angle)
         out, spin = TREAD + y_wheel, v[PITCH]
         roll, yaw, roll_rate, yaw_rate, curvature = (
@@ -145,8 +151,8 @@ class ByTable:
         turn = -spin * sin + (yaw_rate + speed * curvature + spin * roll) * cos
         creepage = -ahead / speed, -(across * cos + sinking * sin) / speed, -turn / speed
         slots = np.arange(1, self.table.slots + 1)
-        creep = self.table(slots, y[:, None], 0.0, load[:, None], MU, creepage, order="cubic")
-        along, lateral, mz = np.moveaxis(creep.forces, -1, 0)
+        creep = self.table(slots, y[:, None], 0.0, known[:, None], MU, creepage, order="cubic")
+        along, lateral, mz = np.moveaxis(creep.forces * share[..., None], -1, 0)
         beside, below = lateral * cos - normal * sin, lateral * sin + normal * cos
         right, down = out - roll * radius, radius + roll * out
         wheels = np.stack([along, beside, below, right * below - down * beside,
@@ -155,7 +161,7 @@ class ByTable:
         wheels[1] *= [1, -1, 1, -1, 1, -1]
         return -wheels
 
-    def derivatives(self, motion: Motion) -> Optional[Array]:
+    def derivatives(self, motion: Motion) -> Array | None:
         """As of ByWheelset, by differences: a look-up is cheap."""
         slopes = np.zeros((6, 2, N))
         here = self.forces(motion).sum(0)

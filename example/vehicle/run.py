@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Run a bogie through a curve, and up to its limit cycle, with contacts by strips, by Hertz and by a
-table, and draw what comes out."""
+"""Run a bogie through a curve and down from its limit cycle, with contacts by strips, by Hertz and
+by a table, and draw what comes out."""
 
 from __future__ import annotations
 
@@ -17,23 +17,24 @@ import warnings
 # Before numpy: more threads cost more, and round otherwise.
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
+import faststrip
 import matplotlib.pyplot as plt
 import numpy as np
-from bogie import PITCH, ROLL, YAW, Bogie, N, Track, Y, Z
-from contact import METHODS, RADIUS, ByTable, ByWheelset
+from bogie import PITCH, YAW, Bogie, Track, Y
+from contact import METHODS, ByTable, ByWheelset
 from simulate import Contact, Motions, Run
-
-import faststrip
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CASE = "&wheel profile = 's1002' /\n&rail profile = '60e1' /\n&material mu = 0.3 /\n"
 CURVE_SPEED = 35.0e3  # mm/s
 LABELS = {"strips": "strips", "hertz": "Hertz and Polach", "table": "table of the wheel"}
 COLOURS = {"strips": "#0b5394", "hertz": "#cc6600", "table": "#38761d"}
+# Hertz jumps where flanges strike, and its steps become short: its limit cycle is left out.
+CYCLES = "strips", "table"
 RATE = 100  # times a second that are kept
 # Seconds in the curve, of the comparison of Jacobians; speeds down to which the limit cycle is
 # followed, m/s, and seconds at each; what the table is made with.
-FULL = 20.0, 2.0, (85.0, 80.0, 75.0, 70.0, 65.0), 2.0, ("--y", "-8:8", "--tests", "500")
+FULL = 20.0, 1.0, (80.0, 75.0, 70.0, 65.0, 60.0), 1.0, ("--y", "-8:8", "--tests", "500")
 QUICK = 0.6, 0.1, (80.0,), 0.1, ("--y", "-6:6", "--tests", "299")
 
 
@@ -202,10 +203,10 @@ def main() -> None:
                             folder / "wheel.fslt", "--error", "0.1", "--load", "10000:130000",
                             "--threads", "1", *make], check=True, stdout=subprocess.DEVNULL,
                            stderr=log)
-        later = [pool.submit(limit_cycles, method, folder, speeds, each) for method in METHODS]
         early.append(pool.submit(through_curve, "table", folder, quick, end))
         kinds = [pool.submit(through_curve, "strips", folder, quick, short, differences)
                  for differences in (False, True)]
+        later = [pool.submit(limit_cycles, method, folder, speeds, each) for method in CYCLES]
         runs, cycles = {}, {}
         for job in concurrent.futures.as_completed([*early, *later]):
             method, found = job.result()
@@ -245,7 +246,7 @@ def main() -> None:
     draw_curve(folder / "curve.png", runs, quick)
     draw_forces(folder / "forces.png", runs["strips"].t, own, same)
     draw_limit_cycles(folder / "limit_cycle.png",
-                      {method: cycles[method] for method in METHODS})
+                      {method: cycles[method] for method in CYCLES})
     with open(folder / "figures.csv", "w", encoding="utf-8", newline="") as file:
         csv.writer(file).writerows([("what", "value", "unit"), *rows])
     for what, value, unit in rows:

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
-from typing import Union
 
+import faststrip
 import numpy as np
 from bogie import FREE, PITCH, WHEELSETS, Array, Bogie, N
 from contact import ByTable, ByWheelset, Motion
 from scipy.integrate import solve_ivp
 
-import faststrip
-
-Contact = Union[ByWheelset, ByTable]
+Contact = ByWheelset | ByTable
 # Of a step: relative, and of coordinates (mm, rad) and rates.
 RELATIVE = 1e-4
 ABSOLUTE = {"y": (1e-4, 1e-1), "z": (1e-5, 1e-1), "roll": (1e-7, 1e-4), "pitch": (1e-4, 1e-4),

@@ -100,7 +100,7 @@ contains
             motion = motion_of(state(first:last), state(n + first:n + last), rails(:, w))
             call solve_wheelset(model, workspace(w), motion, demand, result, status)
             call check()
-            ! What acts on the rails acts on the wheels the other way; the axle turns about its axis.
+            ! What acts on the rails acts on the wheels the other way; the axle has its own axis.
             parts = 0.0_wp
             parts(1, 2) = -1.0_wp
             parts(2, 3) = -1.0_wp
@@ -111,7 +111,8 @@ contains
                 [result%wheel(1)%force + result%wheel(2)%force, &
                  result%wheel(1)%moment + result%wheel(2)%moment])/masses(first:last)
 
-            call find_wheelset_derivatives(model, workspace(w), demand%wants, result, slopes, status)
+            call find_wheelset_derivatives(model, workspace(w), demand%wants, result, slopes, &
+                                           status)
             call check()
             wheelset = 0.0_wp
             wheelset(:, places) = sum(slopes(:, :4, :), dim=3)

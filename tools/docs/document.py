@@ -34,6 +34,7 @@ GROUPS = (
         ("Through a curve", "docs/tutorial_curve.md"),
         ("Conicity", "docs/tutorial_conicity.md"),
         ("A table for an old code", "docs/tutorial_table.md"),
+        ("Into a vehicle", "docs/tutorial_vehicle.md"),
         ("Into Fortran 77", "docs/tutorial_fortran77.md"),
         ("How accurate is it", "docs/tutorial_accuracy.md"))),
     ("Use", (
