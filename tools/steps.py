@@ -826,7 +826,7 @@ def vehicle(*words):
         install_below(ROOT / "build" / "embed")
     os.environ.update(FASTSTRIP_PREFIX=str(ROOT / "build" / "embed"),
                       PYTHONPATH=str(ROOT / "python"))
-    do(sys.executable, "example/vehicle/run.py", *words)
+    do(sys.executable, "example/vehicle/vehicle.py", *words)
     if not {"-h", "--help"} & set(words):
         heading("done: pictures and figures are in out/vehicle/")
 

@@ -23,8 +23,10 @@ class Vehicle(HostTest):
         import bogie
         import contact
         import simulate
+        import vehicle
 
         cls.bogie, cls.contact, cls.simulate = bogie, contact, simulate
+        cls.vehicle = vehicle
 
     def motions(self, track, speed=35e3):
         return self.simulate.Motions(self.bogie.Bogie(track, speed),
@@ -101,6 +103,22 @@ class Vehicle(HostTest):
         apart = np.abs(found - exact) / (0.3 * 54.5e3)
         self.assertLess(apart[:, :3].max(), 0.1)
         self.assertGreater(np.abs(exact[:, 0]).min(), 0.3 * 0.3 * 54.5e3)
+
+    def test_pictures_are_drawn_of_runs(self):
+        _, run = self.vehicle.through_curve("strips", self.folder, True, 0.05)
+        self.assertEqual((len(run.t), run.failed), (6, 0))
+        self.assertGreater(run.calls, 2 * run.jacobians)
+        forces = self.vehicle.wheel_forces("strips", self.folder, True, run)
+        # On the rails, down: the weight.
+        weight = self.bogie.GRAVITY * sum(self.bogie.MASS.values())
+        np.testing.assert_allclose(forces[..., 2].sum((1, 2)), weight, rtol=0.02)
+        methods = self.contact.METHODS
+        self.vehicle.draw_curve(self.folder / "curve.png", dict.fromkeys(methods, run), True)
+        self.vehicle.draw_forces(self.folder / "forces.png", run.t, dict.fromkeys(methods, forces),
+                                 dict.fromkeys(methods, forces))
+        self.vehicle.draw_limit_cycles(self.folder / "cycle.png", {"strips": [(60, 1), (70, 5)]})
+        for name in ("curve", "forces", "cycle"):
+            self.assertGreater((self.folder / f"{name}.png").stat().st_size, 1e4)
 
     def test_fortran_has_the_same_rates_and_jacobian(self):
         self.shell(f"gfortran -O1 -Wall -Wno-compare-reals '{VEHICLE}/vehicle.f90' $(pkg-config"
