@@ -29,12 +29,13 @@ CASE = "&wheel profile = 's1002' /\n&rail profile = '60e1' /\n&material mu = 0.3
 CURVE_SPEED = 35.0e3  # mm/s
 LABELS = {"strips": "strips", "hertz": "Hertz and Polach", "table": "table of the wheel"}
 COLOURS = {"strips": "#0b5394", "hertz": "#cc6600", "table": "#38761d"}
+ABOVE = {"strips": 4, "table": 3, "hertz": 2}  # which lines lie over others
 # Hertz jumps where flanges strike, and its steps become short: its limit cycle is left out.
 CYCLES = "strips", "table"
 RATE = 100  # times a second that are kept
 # Seconds in the curve, of the comparison of Jacobians; speeds down to which the limit cycle is
 # followed, m/s, and seconds at each; what the table is made with.
-FULL = 20.0, 1.0, (80.0, 75.0, 70.0, 65.0, 60.0), 1.0, ("--y", "-8:8", "--tests", "500")
+FULL = 20.0, 1.0, (80.0, 75.0, 70.0, 65.0, 60.0), 2.5, ("--y", "-8:8", "--tests", "500")
 QUICK = 0.6, 0.1, (80.0,), 0.1, ("--y", "-6:6", "--tests", "299")
 
 
@@ -109,7 +110,8 @@ def draw_curve(path: pathlib.Path, runs: dict[str, Run], quick: bool) -> None:
     figure, (top, middle, bottom) = plt.subplots(3, 1, figsize=(9, 8), sharex=True,
                                                  layout="constrained")
     for method, run in runs.items():
-        style = {"color": COLOURS[method], "lw": 0.9, "label": LABELS[method]}
+        style = {"color": COLOURS[method], "lw": 0.9, "label": LABELS[method],
+                 "zorder": ABOVE[method]}
         top.plot(run.t, run.y[Y], **style)
         middle.plot(run.t, 1e3 * run.y[YAW], **style)
     top.set_ylabel("y of the front wheelset, mm")
@@ -123,7 +125,7 @@ def draw_curve(path: pathlib.Path, runs: dict[str, Run], quick: bool) -> None:
     bottom.plot(t, (rails[1] + rails[3]) / 2, color="#b4a7d6", lw=0.9, label="level, down, mm")
     bottom.plot(t, 1e6 * here.curvature(s), color="black", lw=1.8, label="curvature, 1/km")
     bottom.set(xlabel="time, s", ylabel="track")
-    bottom.legend(ncols=3, loc="lower right", fontsize="small")
+    bottom.legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
     for axes in (top, middle, bottom):
         axes.grid(alpha=0.3)
     figure.savefig(path, dpi=130)
@@ -140,7 +142,7 @@ def draw_forces(path: pathlib.Path, t: np.ndarray, own: dict[str, np.ndarray],
         name = "Fx Fy Fz".split()[k]
         for method, forces in own.items():
             left.plot(t, forces[:, 0, 1, k] / 1e3, color=COLOURS[method], lw=0.8,
-                      label=LABELS[method])
+                      label=LABELS[method], zorder=ABOVE[method])
         left.set_ylabel(f"{name} on the outer rail, kN")
         exact = same["strips"][:, 0, 1, k] / 1e3
         for method in ("hertz", "table"):
@@ -153,7 +155,7 @@ def draw_forces(path: pathlib.Path, t: np.ndarray, own: dict[str, np.ndarray],
             axes.grid(alpha=0.3)
     rows[0, 0].legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
     rows[0, 1].legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False,
-                      markerscale=4)
+                      markerscale=4, fontsize="small", columnspacing=1.0)
     rows[2, 0].set_xlabel("time, s")
     figure.savefig(path, dpi=130)
     plt.close(figure)
