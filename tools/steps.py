@@ -579,6 +579,7 @@ def python_tests(text):
         print(f"the page is not tested in a browser: {why}", flush=True)
     if os.path.isdir("test/cli"):
         python_packages("test", "what the tests of the Python package and of NetCDF need")
+        python_packages("vehicle", "scipy")
     return pytest(text, ["test/tools", "test/cli", "test/plots", "test/embed"])
 
 

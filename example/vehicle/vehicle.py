@@ -218,7 +218,7 @@ def main() -> None:
                     f" calls, {found.failed} failed")
             else:
                 cycles[method] = found
-                say(f"{method} at {len(found)} speeds: "
+                say(f"{method}, limit cycle: "
                     + ", ".join(f"{y:.1f} mm at {v:g} m/s" for v, y in found))
         for words, job in zip(("derivatives", "differences"), kinds, strict=True):
             run = job.result()[1]
