@@ -720,6 +720,22 @@ int faststrip_lookup_forces(const faststrip_lookup *lookup, enum faststrip_looku
  * contacts come or go. */
 int faststrip_lookup_wheel_about(const faststrip_lookup *lookup, double numbers[60]);
 
+/* Errors of z, which the promise of a table covers, each as the load that it makes by Hertz' law
+ * over the load: mean, 99th percentile, worst, by linear, then by cubic interpolation, of all fresh
+ * states, then of those where contacts come or go. A table of an older version does not know them
+ * (121). */
+int faststrip_lookup_wheel_z_errors(const faststrip_lookup *lookup, double errors[12]);
+
+/* Let the table of a wheel answer for a wheelset: for each wheel whose y, yaw and load are within
+ * it, with n_solutions 0, its contacts, forces and moments come from the table; strips solve the
+ * others, as without it. Both wheels and rails must be alike, friction constant, and the table that
+ * of this wheel and rail and material, which three of its nodes are solved for (100). It stays
+ * open: once it is freed, calls of the wheelset fail (100). null: strips alone again. Contacts have
+ * load, penetration, area and pressure but no ends, strips or estimates; derivatives are refused
+ * (100). */
+int faststrip_wheelset_use_lookup(faststrip_wheelset *wheelset, const faststrip_lookup *lookup,
+                                  enum faststrip_lookup_order order);
+
 /* Look the contacts of a wheel up. places has three numbers of each of n places: y of the wheelset,
  * mm, yaw, rad, vertical part of the normal forces, N. contacts becomes 14 numbers of each slot, of
  * each place: normal force, N; contact angle, rad; y, z on the rail's profile, mm; x in the track,

@@ -143,6 +143,8 @@ def _declare(library: ctypes.CDLL) -> None:
         "lookup_about": [handle, POINTER(number)],
         "lookup_forces": [handle, c_int, c_int, *[c_void_p] * 4],
         "lookup_wheel_about": [handle, POINTER(number)],
+        "lookup_wheel_z_errors": [handle, POINTER(number)],
+        "wheelset_use_lookup": [handle, handle, c_int],
         "lookup_wheel_contacts": [handle, c_int, c_int, *[c_void_p] * 4],
         "lookup_wheel_forces": [handle, c_int, c_int, *[c_void_p] * 5],
         "wheelset_last_message": [handle, c_char_p, c_size_t],

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ctypes
+import math
 import os
 from dataclasses import dataclass
 from typing import Any, Tuple, Union
@@ -20,7 +22,7 @@ STATE = (*PLACE, "mu", "cksi", "ceta", "cphi")
 #: Numbers of a contact, in this order.
 CONTACT = ("n", "angle", "y_rail", "z_rail", "x", "y_wheel", "radius", "z", "area", "pmax", "c",
            "l1", "l2", "l3")
-N_ABOUT = 60
+N_ABOUT, N_Z_ERRORS = 60, 12
 #: Beyond any table's, and within the library's whole numbers.
 MOST_SLOT = 1e6
 
@@ -71,9 +73,10 @@ class WheelLookup:
     y, yaw, load : tuple of float
         First and last lateral displacement of the wheelset, mm; yaw, rad, both the same in a
         table of one yaw, which knows no other; vertical part of the normal forces, N.
-    errors : ndarray of float, shape (2, 2, 3, 4)
-        Errors of Fx, Fy, Mz, lateral part of the normal forces, all over them (and mu, and c): as
-        ``tested``; linear, cubic; mean, 99th percentile, worst; error.
+    errors : ndarray of float, shape (2, 2, 3, 5)
+        Errors of Fx, Fy, Mz, lateral part of the normal forces, all over them (and mu, and c), and
+        of z, as the load that it makes by Hertz' law over the load: as ``tested``; linear, cubic;
+        mean, 99th percentile, worst; error. Those of z are nan in a file of an older version.
     """
 
     def __init__(self, table: Union[str, os.PathLike[str], bytes]) -> None:
@@ -83,10 +86,14 @@ class WheelLookup:
         self.tested = int(numbers[3]), int(numbers[4])
         self.slots = int(numbers[5])
         self.y, self.yaw, self.load = (tuple(numbers[k:k + 2]) for k in (6, 8, 10))
-        self.errors = np.array(numbers[12:]).reshape(2, 2, 3, 4)
+        of_z = (ctypes.c_double * N_Z_ERRORS)()
+        code = library.faststrip_lookup_wheel_z_errors(self._table.handle, of_z)
+        self.errors = np.concatenate([np.array(numbers[12:]).reshape(2, 2, 3, 4),
+                                      np.array(of_z if code == 0 else [math.nan] * N_Z_ERRORS)
+                                      .reshape(2, 2, 3, 1)], axis=-1)
 
     def contacts(self, y: npt.ArrayLike, yaw: npt.ArrayLike, load: npt.ArrayLike, *,
-                 order: str = "linear", slopes: bool = False) -> WheelContacts:
+                 order: str = "cubic", slopes: bool = False) -> WheelContacts:
         """Contacts at places, each a number or an array; they are broadcast.
 
         Parameters
@@ -98,7 +105,7 @@ class WheelLookup:
         load : array_like
             Vertical part of the normal forces, N.
         order : str
-            ``linear`` or ``cubic``.
+            ``cubic`` or ``linear``.
         slopes : bool
             Are derivatives wanted?
 
@@ -132,7 +139,7 @@ class WheelLookup:
 
     def __call__(self, slot: npt.ArrayLike, y: npt.ArrayLike, yaw: npt.ArrayLike,
                  load: npt.ArrayLike, mu: npt.ArrayLike, creepage: Tuple[Any, Any, Any], *,
-                 order: str = "linear", jacobian: bool = False) -> LookedUp:
+                 order: str = "cubic", jacobian: bool = False) -> LookedUp:
         """Creep forces of contacts, each number one or an array; they are broadcast.
 
         Parameters
@@ -146,7 +153,7 @@ class WheelLookup:
         creepage : three array_like
             Longitudinal, lateral and spin (rad/mm) creepage in the frame of the contact.
         order : str
-            ``linear`` or ``cubic``.
+            ``cubic`` or ``linear``.
         jacobian : bool
             Are derivatives wanted?
 

@@ -36,6 +36,8 @@ from ._library import (
     warn_of_doubts,
     word_of,
 )
+from ._lookup import order_number
+from ._lookup_wheel import WheelLookup
 from ._profile import Points, Profile, grown, inclination_of, points_of, spacing_of
 from ._record import Record, Table, described
 from ._results import Elements, Strips
@@ -372,6 +374,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
                  force_limit: float = 0.1, target: Optional[str] = None,
                  tolerance: Optional[float] = None, budget_us: Optional[float] = None) -> None:
         self._handle: Optional[Handle] = None
+        self._lookup: Optional[Handle] = None
         self._n_contacts = 0
         case = new_case(normal, tangential, whole("strips_per_patch", strips_per_patch, 1,
                                                   MOST_STRIPS), points_per_strip, fastsim_grid,
@@ -403,6 +406,32 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
 
     def __reduce__(self) -> Any:
         raise TypeError("a Wheelset cannot be copied or pickled: make one in every process")
+
+    def use_lookup(self, table: Optional[WheelLookup], *, order: str = "cubic") -> None:
+        """Let a table answer where it reaches; strips do beyond its ends.
+
+        A wheel that it answers for has an ``n_solutions`` of 0, and contacts without ends, strips,
+        estimates and derivatives.
+
+        Parameters
+        ----------
+        table : WheelLookup, optional
+            Of the wheel and rail, which three of its nodes are solved for; None: strips alone.
+        order : str
+            ``cubic`` or ``linear``.
+
+        Raises
+        ------
+        FaststripError
+            If it is another wheel's, or both wheels are not alike.
+        """
+        if not isinstance(table, (WheelLookup, type(None))):
+            raise refused("table", "a WheelLookup or None", table)
+        held = None if table is None else table._table
+        self._call(library.faststrip_wheelset_use_lookup,
+                   None if held is None else held.handle, order_number(order))
+        # It stays open as long as it is asked.
+        self._lookup = held
 
     def solve(self, *, y: float = 0.0, z: Optional[float] = None, roll: Optional[float] = None,
               yaw: float = 0.0, speed: float = 0.0, y_rate: float = 0.0, z_rate: float = 0.0,
@@ -616,6 +645,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
             raise bad_argument("the wheelset is closed")
         other._call(library.faststrip_wheelset_copy, self._handle.handle)
         self._n_contacts = other._n_contacts
+        self._lookup = other._lookup
 
     def _call(self, function: Any, *arguments: Any) -> int:
         handle = self._handle

@@ -46,6 +46,7 @@
 !> faststrip_lookup_table               faststrip_lookup_bytes
 !> faststrip_lookup_faces               faststrip_lookup_hertz
 !> faststrip_lookup_wheel               tables of creep forces
+!> faststrip_wheelset_enter             a table that answers for a wheelset
 !> ```
 !>
 !> Each name comes from the module that makes it: so an installed library shows it to the linker.

@@ -15,7 +15,7 @@ module faststrip_netcdf_lookup
     use faststrip_lookup_bytes, only: open_lookup
     use faststrip_lookup_faces, only: n_faces, n_forces
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, &
-                                      n_wheel_errors, at_load, at_area
+                                      at_load, at_area
     use faststrip_netcdf_columns, only: fill_number
     implicit none
     private
@@ -182,7 +182,8 @@ contains
             call define_axis(file, 'side', '1: of the contact, 2: of its mirror image', '1', 2, &
                              nf90_int, side)
             call define_axis(file, 'compared', 'Fx, Fy, Mz over mu N and c, lateral part of the ' &
-                             // 'normal forces over N', '1', n_wheel_errors, nf90_int, what)
+                             // 'normal forces over N, z as the load that it makes over the load', &
+                             '1', wheel%n_errors, nf90_int, what)
             call define_axis(file, 'states', '1: all, 2: where contacts come or go', '1', 2, &
                              nf90_int, states)
             call define_errors(file, statistic, order)
@@ -212,7 +213,7 @@ contains
             call put_counts(file, slot%variable, wheel%slots)
             call put_counts(file, contact%variable, wheel%sets)
             call put_counts(file, side%variable, 2)
-            call put_counts(file, what%variable, n_wheel_errors)
+            call put_counts(file, what%variable, wheel%n_errors)
             call put_counts(file, states%variable, 2)
             call put_counts(file, statistic%variable, 3)
             call note(file, nf90_put_var(file%id, order%variable, [1, 3]))
@@ -224,8 +225,9 @@ contains
             call note(file, nf90_put_var(file%id, phi, lookup%values, start=[1, 1, 1, 1, 1, 1, 1], &
                                          count=[n_forces, lookup%q%n, lookup%ratio%n, &
                                                 lookup%ratio%n, n_faces, 2, wheel%sets]))
-            call put(file, errors, reshape(wheel%errors, [size(wheel%errors)]), &
-                     [n_wheel_errors, 3, 2, 2])
+            call put(file, errors, reshape(wheel%errors(:wheel%n_errors, :, :, :), &
+                                           [wheel%n_errors*size(wheel%errors(1, :, :, :))]), &
+                     [wheel%n_errors, 3, 2, 2])
         end associate
     end subroutine write_wheel
 

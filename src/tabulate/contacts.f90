@@ -31,12 +31,18 @@ module faststrip_tabulate_contacts
     ! Tuned [1]: vertical force that is found, of the load, and the bracket of the approach in which
     ! a force jumps over it. Origin: chosen: a thousandth of what tables interpolate.
     real(wp), parameter :: near_enough = 1.0e-6_wp
+    ! Power of the penetration that N grows with.
+    ! Given: Hertz' law.
+    real(wp), parameter :: growth = 1.5_wp
 
     !> The contacts of a place.
     type :: found_contacts_t
         integer :: n = 0                                            !! how many
         real(wp) :: numbers(n_contact_numbers, most_contacts) = 0.0_wp
             !! of each, as `look_up_contacts` has them
+        real(wp) :: length = 0.0_wp
+            !! by which z would have to go down for as much load again as there is, if the force
+            !! went on as it begins to by Hertz' law, mm
         integer :: code(most_contacts) = st_ok                      !! how each was solved
     end type found_contacts_t
 
@@ -92,6 +98,7 @@ contains
 
         type(wheelset_state_t) :: state
         type(wheelset_demand_t) :: demand
+        real(wp) :: stiffness
         integer :: i
 
         state%y = place(1)
@@ -109,6 +116,7 @@ contains
             return
         end if
         call clear_status(status)
+        stiffness = 0.0_wp
         associate (wheel => solver%result%wheel(side_right))
             do i = 1, wheel%n
                 if (.not. wheel%contact(i)%figures%normal%load > 0.0_wp) cycle
@@ -117,8 +125,13 @@ contains
                 call take_numbers(wheel%contact(i), wheel%z, nu, found%numbers(:, found%n), status)
                 if (is_error(status)) return
                 found%code(found%n) = wheel%contact(i)%status%code
+                associate (normal => wheel%contact(i)%figures%normal)
+                    stiffness = stiffness + growth*normal%load/normal%penetration &
+                                *cos(wheel%contact(i)%angle)**2
+                end associate
             end do
         end associate
+        found%length = place(3)/stiffness
     end subroutine solve_place
 
     !> Numbers of a contact.

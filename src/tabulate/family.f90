@@ -5,7 +5,7 @@ module faststrip_tabulate_family
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
     use faststrip_lookup_axis, only: lookup_axis_t
-    use faststrip_lookup_faces, only: n_forces
+    use faststrip_lookup_faces, only: n_forces, lookup_linear
     use faststrip_lookup_table, only: lookup_t
     use faststrip_tabulate_forces, only: choice_t
     implicit none
@@ -15,7 +15,7 @@ module faststrip_tabulate_family
 
     !> The most numbers of a state, sums of a state, errors of a table.
     !> Given: the largest of the families.
-    integer, parameter, public :: most_numbers = 8, most_sums = 5, most_errors = 4
+    integer, parameter, public :: most_numbers = 8, most_sums = 6, most_errors = 5
     !> Kinds of fresh states: over the whole table; only where contacts come or go.
     !> Given: places in arrays.
     integer, parameter, public :: states_all = 1, states_changing = 2
@@ -50,6 +50,7 @@ module faststrip_tabulate_family
     type, abstract :: family_t
         type(choice_t) :: choice      !! how forces are solved
         integer :: threads = 1        !! that solve
+        integer :: order = lookup_linear !! of the interpolation that axes are refined for
         integer :: n_axes = 0         !! axes of a table
         integer :: n_face_axes = 0    !! the first of them, of creepages; the others are of places
         integer :: n_numbers = 0      !! of a state

@@ -6,6 +6,7 @@ module faststrip_tabulate_make
                                      st_no_convergence, clear_status
     use faststrip_base_text, only: integer_text
     use faststrip_lookup_axis, only: lookup_axis_t
+    use faststrip_lookup_faces, only: lookup_linear, lookup_cubic
     use faststrip_lookup_table, only: lookup_t
     use faststrip_tabulate_axis, only: start_axis, refine_axis, nodes_of
     use faststrip_tabulate_family, only: family_t, sampled_axis_t, note_failure, states_all, &
@@ -120,6 +121,7 @@ contains
         logical :: are_same_places
 
         limits = error*family%shares
+        family%order = merge(lookup_linear, lookup_cubic, order == 1)
         before = 0
         best = huge(1.0_wp)
         do round = 1, most_rounds

@@ -6,6 +6,8 @@
 !> which one of the solution it is: creep forces ahead, and across the normal, as a vector in the
 !> track; their moment about the normals with that of the forces ahead about the mean place of
 !> contact; and the lateral part of the normal forces, which shows how well contacts are placed.
+!> With them the height z of the wheelset, from which a vehicle has the load: its error counts as
+!> that of the load which it makes.
 module faststrip_tabulate_wheel
     use, intrinsic :: iso_fortran_env, only: int64, real32
     use faststrip_base_kinds, only: wp
@@ -14,11 +16,11 @@ module faststrip_tabulate_wheel
                                      first_error
     use faststrip_base_text, only: integer_text
     use faststrip_contact_methods, only: tangential_none
-    use faststrip_lookup_axis, only: lookup_axis_t
+    use faststrip_lookup_axis, only: lookup_axis_t, stencil_t, make_axis, cubic_stencil
     use faststrip_lookup_faces, only: n_forces, n_faces, creepages_at, lookup_linear, lookup_cubic
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, &
                                       n_wheel_errors, most_slots, at_load, at_angle, at_rail_y, &
-                                      at_area, at_pmax, at_length, at_creep, at_spin
+                                      at_height, at_area, at_pmax, at_length, at_creep, at_spin
     use faststrip_lookup_wheel, only: look_up_contacts, look_up_wheel, contacts_change, &
                                       n_wheel_place, n_wheel_state
     use faststrip_tabulate_contacts, only: wheel_solver_t, found_contacts_t, make_wheel_solver, &
@@ -42,9 +44,12 @@ module faststrip_tabulate_wheel
     ! Given: their order in a table.
     integer, parameter :: n_face_axes = 2, axis_y = 3, axis_load = 5, n_axes = 5
     ! Sums over the contacts of a wheel: ahead; across, along y and z of the track; moment; lateral
-    ! part of the normal forces.
+    ! part of the normal forces; and the height z.
     ! Given: what is compared.
-    integer, parameter :: n_sums = 5
+    integer, parameter :: n_sums = 6
+    ! Behind them in samples: the mean place of contact; the length over which errors of z count.
+    ! Given: places in arrays.
+    integer, parameter :: at_middle = n_sums + 1, at_stretch = n_sums + 2
     ! Tuned [places]: of the other coordinates, and creepages at each. Origin: cost.
     integer, parameter :: n_lines = 8, n_creepages = 6
     ! Tuned [nodes]: of y, yaw, load to begin with. Origin: chosen.
@@ -176,8 +181,7 @@ contains
             return
         end if
         along = axis%kind - n_face_axes
-        ! Behind the sums stands the mean place of contact.
-        axis%values = n_sums + 1
+        axis%values = at_stretch
         axis%samples = n_lines*n_creepages
         axis%jobs = n_lines
         axis%least = self%limits%least(along)
@@ -243,13 +247,15 @@ contains
             middle = sum(numbers(at_load, :)*numbers(at_rail_y, :))/(c*sum(numbers(at_load, :)))
             do j = 1, n_creepages
                 call sums_of(numbers, forces(:, j, :found%n), 0.0_wp, sums)
-                axis%f(:, n_creepages*(job - 1) + j, place) = &
-                    [sums/(at(3)*[node_mu, node_mu, node_mu, node_mu*c, 1.0_wp]), middle]
+                sums(:n_sums - 1) = sums(:n_sums - 1) &
+                                    /(at(3)*[node_mu, node_mu, node_mu, node_mu*c, 1.0_wp])
+                axis%f(:, n_creepages*(job - 1) + j, place) = [sums, middle, found%length]
             end do
         end associate
     end subroutine sample_wheel
 
-    !> What linear interpolation misses in the middle of a cell, on the worst line.
+    !> What interpolation misses in the middle of a cell, on the worst line: linear one, but for z,
+    !> which a look-up has by the order asked for.
     pure function error_of_cell(self, axis, middle) result(error)
         class(wheel_family_t), intent(in) :: self !! with its ellipses
         type(sampled_axis_t), intent(in) :: axis  !! sampled
@@ -263,8 +269,12 @@ contains
             error = self%ellipses%cell_error(axis, middle)
             return
         end if
-        associate (f => axis%f(:n_sums, :, :), place => axis%f(n_sums + 1, :, middle))
+        associate (f => axis%f(:n_sums, :, :), place => axis%f(at_middle, :, middle))
             miss = f(:, :, middle) - 0.5_wp*(f(:, :, middle - 1) + f(:, :, middle + 1))
+            if (self%order == lookup_cubic) &
+                miss(n_sums, :) = f(n_sums, :, middle) - cubic_middle(axis%x, f(n_sums, :, :), &
+                                                                      middle)
+            miss(n_sums, :) = miss(n_sums, :)/axis%f(at_stretch, :, middle)
             error = 0.0_wp
             do line = 1, n_lines
                 first = 1 + n_creepages*(line - 1)
@@ -277,6 +287,23 @@ contains
             end do
         end associate
     end function error_of_cell
+
+    ! The middle of a cell by cubics through the four nodes about it.
+    pure function cubic_middle(x, values, middle) result(there)
+        real(wp), intent(in) :: x(:)         ! places: nodes are 1, 3, 5, ...
+        real(wp), intent(in) :: values(:, :) ! samples, places
+        integer, intent(in) :: middle        ! place
+        real(wp) :: there(size(values, 1))
+
+        type(lookup_axis_t) :: nodes
+        type(stencil_t) :: stencil
+        integer :: first
+
+        first = min(max(middle - 3, 1), size(x) - 6) ! Given: four nodes, every other place.
+        call make_axis(x(first:first + 6:2), nodes)
+        call cubic_stencil(nodes, x(middle), stencil)
+        there = matmul(values(:, first:first + 6:2), stencil%w)
+    end function cubic_middle
 
     !> Nodes of a table, as if each place had one contact.
     pure function nodes_of_wheel(self, axes) result(nodes)
@@ -422,16 +449,20 @@ contains
                         numbers(at_spin) = numbers(at_spin)/root**3
                     end associate
                 end do
+                ! All contacts of a place have its height, also those that are not there.
+                wheel%contacts(at_height, :, node) = found(node)%numbers(at_height, 1)
             end do
         end associate
     end subroutine put_contacts
 
-    ! Where a contact is not, it has the numbers of the nearest node where it is, but no load.
+    ! Where a contact is not, it has the numbers of the nearest node where it is, but no load, and
+    ! the height of its own node.
     subroutine spread_contacts(sizes, lookup)
         integer, intent(in) :: sizes(n_wheel_place)
         type(lookup_t), intent(inout) :: lookup
 
         integer, allocatable :: before(:)
+        real(wp) :: height
         integer :: slot, node, way, next, left
 
         associate (wheel => lookup%wheel)
@@ -447,8 +478,10 @@ contains
                             next = neighbour_of(node, way, sizes)
                             if (next == 0) cycle
                             if (before(next) == 0) cycle
+                            height = wheel%contacts(at_height, slot, node)
                             wheel%contacts(:, slot, node) = wheel%contacts(:, slot, next)
                             wheel%contacts(at_load, slot, node) = 0.0_wp
+                            wheel%contacts(at_height, slot, node) = height
                             wheel%set(slot, node) = before(next)
                             exit
                         end do
@@ -651,7 +684,8 @@ contains
                 call sums_of(contacts, forces, middle, state%sums(:, order))
                 associate (miss => state%sums(:, order) - state%sums(:, 0))
                     state%off(:, order) = [abs(miss(1))/(mu*loads), norm2(miss(2:3))/(mu*loads), &
-                                           abs(miss(4))/(mu*loads*c), abs(miss(5))/loads]
+                                           abs(miss(4))/(mu*loads*c), abs(miss(5))/loads, &
+                                           abs(miss(6))/found%length]
                 end associate
             end do
         end associate
@@ -690,7 +724,7 @@ contains
         real(wp), intent(in) :: contacts(:, :) ! numbers, contacts
         real(wp), intent(in) :: forces(:, :)   ! Fx, Fy, Mz, contacts
         real(wp), intent(in) :: middle         ! y on the rail that the moment is about, mm
-        real(wp), intent(out) :: sums(n_sums)  ! N; N mm
+        real(wp), intent(out) :: sums(n_sums)  ! N; N mm; mm
 
         integer :: i
 
@@ -700,9 +734,10 @@ contains
             associate (c => cos(contacts(at_angle, i)), s => sin(contacts(at_angle, i)), &
                        load => contacts(at_load, i), y => contacts(at_rail_y, i), &
                        fx => forces(1, i), fy => forces(2, i), mz => forces(3, i))
-                sums = sums + [fx, fy*c, fy*s, mz*c - (y - middle)*fx, -load*s]
+                sums = sums + [fx, fy*c, fy*s, mz*c - (y - middle)*fx, -load*s, 0.0_wp]
             end associate
         end do
+        sums(n_sums) = contacts(at_height, maxloc(contacts(at_load, :), dim=1))
     end subroutine sums_of
 
     !> Look the contact of a state up that carries most, with derivatives.
@@ -728,6 +763,7 @@ contains
         type(lookup_t), intent(inout) :: lookup    !! filled
 
         lookup%wheel%errors = errors
+        lookup%wheel%n_errors = n_wheel_errors
         lookup%wheel%tested = tested
     end subroutine keep_errors
 

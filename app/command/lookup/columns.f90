@@ -30,7 +30,7 @@ module faststrip_command_lookup_columns
     !> What a table is judged by: of ellipses the first three; of which states; of which order.
     !> Given: their order in a table.
     character(len=3), parameter :: error_names(n_wheel_errors) = [character(len=3) :: &
-        'Fx', 'Fy', 'Mz', 'N_y']
+        'Fx', 'Fy', 'Mz', 'N_y', 'z']
     character(len=6), parameter :: state_kinds(2) = [character(len=6) :: 'all', 'change']
     character(len=6), parameter :: orders(2) = [character(len=6) :: 'linear', 'cubic']
 end module faststrip_command_lookup_columns

@@ -54,18 +54,19 @@ contains
             // 'load_N,mu,cksi,ceta,cphi_rad_per_mm,slot; the numbers of the contact are added,' &
             // ' too.' // new_line('a')
         command%options = [ &
-            option_t('--order', 'NAME', 'interpolation: linear (default) or cubic'), &
+            option_t('--order', 'NAME', 'interpolation: linear or cubic (default linear; of a wheel''s' &
+                     // ' table cubic)'), &
             option_t('--jacobian', '', 'add the derivatives, as dFx_dcksi, in units of both'), &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
         call parse_command(command, 2)
-        order = lookup_linear
-        if (option_word(command, '--order', 'linear', [character(len=6) :: 'linear', 'cubic']) &
-            == 'cubic') order = lookup_cubic
         with_jacobian = given(command, '--jacobian')
         call read_table(command%arguments(1)%text, lookup)
         call read_csv(command%arguments(2)%text, states, status)
         call fail_on_error(status)
         is_wheel = lookup%kind == lookup_kind_wheel
+        order = lookup_linear
+        if (option_word(command, '--order', trim(merge('cubic ', 'linear', is_wheel)), &
+                        [character(len=6) :: 'linear', 'cubic']) == 'cubic') order = lookup_cubic
         if (is_wheel) then
             needed = [character(len=name_length) :: wheel_columns, 'slot']
             new = [character(len=name_length) :: contact_columns, force_columns, 'status']

@@ -8,7 +8,7 @@ module faststrip_command_lookup_info
     use faststrip_command_lookup_file, only: read_table
     use faststrip_command_program_options, only: command_t, parse_command
     use faststrip_lookup_faces, only: n_forces
-    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, at_load
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_wheel_errors, at_load
     implicit none
     private
 
@@ -46,7 +46,7 @@ contains
         call say_axis('ratios of creepages', lookup%ratio%x)
         call say_axis('a/b', exp(lookup%shape%x))
         if (lookup%promised > 0.0_wp) &
-            call say('made for a 99th percentile of ' // trim(number_text(lookup%promised)))
+            call say_promise(lookup%promised, 'mu N and mu N c')
         if (lookup%tested == 0) return
         call say('errors on ' // integer_text(lookup%tested) // ' fresh contacts, over mu N and ' &
                  // 'mu N c: mean, 99th percentile, worst')
@@ -77,17 +77,32 @@ contains
             call say('  shortest cell of y: ' // trim(number_text( &
                      minval(wheel%y%x(2:) - wheel%y%x(:wheel%y%n - 1)))) // ' mm')
             if (lookup%promised > 0.0_wp) &
-                call say('made for a 99th percentile of ' // trim(number_text(lookup%promised)))
+                call say_promise(lookup%promised, 'mu N, mu N c, N, and of the load for z')
             do kind = 1, 2
                 if (wheel%tested(kind) == 0) cycle
                 call say('errors on ' // integer_text(wheel%tested(kind)) // ' fresh states' &
                          // trim(merge(' where contacts come or go', '                          ', &
                                        state_kinds(kind) == 'change')) &
                          // ', over mu N, mu N c, N: mean, 99th percentile, worst')
-                call say_errors(wheel%errors(:, :, :, kind))
+                call say_errors(wheel%errors(:wheel%n_errors, :, :, kind))
             end do
+            if (wheel%n_errors < n_wheel_errors) then
+                call say('an older table: errors of z are not known')
+            else
+                call say('an error of z counts as the load that it makes by Hertz'' law, over the' &
+                         // ' load')
+            end if
         end associate
     end subroutine say_wheel
+
+    subroutine say_promise(promised, what)
+        real(wp), intent(in) :: promised     ! over the unit
+        character(len=*), intent(in) :: what ! its unit
+
+        if (promised > 0.0_wp) &
+            call say('made for a 99th percentile of ' // trim(number_text(promised)) // ' of ' &
+                     // what)
+    end subroutine say_promise
 
     subroutine say_errors(errors)
         real(wp), intent(in) :: errors(:, :, :) ! of each; mean, percentile, worst; orders

@@ -37,14 +37,16 @@ module faststrip_command_lookup_make
     ! Tuned [1]: 99th percentile of the errors where none is asked for, of ellipses and of wheels.
     ! Origin: chosen.
     real(wp), parameter :: usual_error = 0.01_wp, usual_wheel_error = 0.03_wp
+    ! Tuned [1]: the largest that may be asked for. Origin: chosen: Hertz' ellipse with Polach's law
+    ! comes as near without a table; who says 0.5 or 1 means per cent.
+    real(wp), parameter :: most_error = 0.2_wp
     ! Tuned [mm]: the shortest cell along y where none is asked for. Origin: chosen.
     real(wp), parameter :: usual_step = 0.02_wp
     ! Tuned [rad, 1]: least cell of yaw, and of the load over its end. Origin: chosen.
     real(wp), parameter :: least_yaw = 1.0e-4_wp, least_load = 0.02_wp
 
     !> Options of both actions.
-    type(option_t), parameter :: part_options(3) = [ &
-        option_t('--order', 'NAME', 'of which interpolation: linear (default) or cubic'), &
+    type(option_t), parameter :: part_options(2) = [ &
         option_t('--part', 'k/K', 'on given nodes: only every Kth a/b, or contact, from the kth' &
                  // ' on'), &
         option_t('--resume', '', 'on given nodes: go on with what an ended run has left in' &
@@ -75,9 +77,11 @@ contains
             // new_line('a')
         command%options = [ &
             option_t('-o', 'FILE', 'write the table there', writes=.true.), &
-            option_t('--error', 'E', '99th percentile, over mu N and mu N c (default 0.01)'), &
+            option_t('--error', 'E', '99th percentile, a fraction of mu N and mu N c: 0.005 is' &
+                     // new_line('a') // 'half a per cent (default 0.01)'), &
             option_t('--ab', 'LEAST:MOST', 'a/b, a along the rolling direction (default' &
                      // ' 0.1:10)'), &
+            option_t('--order', 'NAME', 'of which interpolation: linear (default) or cubic'), &
             option_t('--nu', 'NUMBER', 'Poisson''s ratio of both bodies (default 0.28)'), &
             option_t('--tests', 'N', 'fresh contacts to judge it by (default 10000)'), &
             option_t('--axes-of', 'TABLE', 'its nodes and nu, instead of refining: by a costly' &
@@ -95,7 +99,8 @@ contains
         if (given(command, '--axes-of')) choice%nu = other%nu
         call make_hertz_family(choice, take_threads(command), ends, family, status)
         call fail_on_error(status)
-        call make_table(command, family, choice_text(choice), usual_error, usual_tests, other)
+        call make_table(command, family, choice_text(choice), usual_error, usual_tests, &
+                        'linear', other)
         call release_hertz_family(family)
     end subroutine run_lookup_make
 
@@ -129,7 +134,9 @@ contains
             option_t('--load', 'FIRST:LAST', 'vertical part of the normal forces, N (default' &
                      // new_line('a') // '40000:120000)'), &
             option_t('--yaw', 'FIRST:LAST', 'rad (default 0:0, no axis)'), &
-            option_t('--error', 'E', '99th percentile, over mu N, mu N c and N (default 0.03)'), &
+            option_t('--error', 'E', '99th percentile, a fraction of mu N, mu N c, N, and of the' &
+                     // new_line('a') // 'load for z: 0.005 is half a per cent (default 0.03)'), &
+            option_t('--order', 'NAME', 'of which interpolation: cubic (default) or linear'), &
             option_t('--least-step', 'MM', 'the shortest cell along y (default 0.02)'), &
             option_t('--tests', 'N', 'fresh states to judge it by (default 2000)'), &
             option_t('--axes-of', 'TABLE', 'its nodes, instead of refining', reads=.true.), &
@@ -151,7 +158,7 @@ contains
         call fail_on_error(status)
         call make_table(command, family, wheel_text(command%arguments(1)%text) &
                         // choice_text(choice), usual_wheel_error, usual_wheel_tests, &
-                        other)
+                        'cubic', other)
         call release_wheel_family(family)
     end subroutine run_lookup_wheel
 
@@ -204,12 +211,13 @@ contains
     end subroutine read_nodes
 
     ! Make the table and write it.
-    subroutine make_table(command, family, words, default_error, usual, other)
+    subroutine make_table(command, family, words, default_error, usual, usual_order, other)
         type(command_t), intent(in) :: command
         class(family_t), intent(inout) :: family
         character(len=*), intent(in) :: words     ! how it is made
         real(wp), intent(in) :: default_error
         integer, intent(in) :: usual              ! fresh states
+        character(len=*), intent(in) :: usual_order ! of interpolation
         type(lookup_t), intent(in) :: other       ! whose nodes are taken; or none
 
         type(lookup_t) :: lookup
@@ -223,10 +231,13 @@ contains
         family%progress => progress
         family%note => note
         error = option_number(command, '--error', default_error, above=0)
+        if (error > most_error) &
+            call refuse_value(command, '--error', 'a fraction of mu N above 0 to 0.2, 0.005 for ' &
+                              // 'half a per cent')
         tests = option_integer(command, '--tests', usual, most=10000000, &
                                least=merge(100, least_drawn, given(command, '--axes-of')))
         order = 1
-        if (option_word(command, '--order', 'linear', [character(len=6) :: 'linear', 'cubic']) &
+        if (option_word(command, '--order', usual_order, [character(len=6) :: 'linear', 'cubic']) &
             == 'cubic') order = 2
         call option_part(command, part, parts)
         work = work_name(option_text(command, '-o', ''))

@@ -180,15 +180,15 @@ contains
         logical, intent(in) :: is_wheel
         type(judged_t), intent(in) :: states(:)
 
-        character(len=9), parameter :: sums(5) = [character(len=9) :: &
-            'Fx_N', 'Fy_N', 'Fz_N', 'Mz_Nmm', 'N_y_N']
+        character(len=9), parameter :: sums(6) = [character(len=9) :: &
+            'Fx_N', 'Fy_N', 'Fz_N', 'Mz_Nmm', 'N_y_N', 'z_mm']
         type(csv_writer_t) :: writer
         integer :: i, j, k
 
         call begin_table(writer, path)
         if (is_wheel) then
             call put_comment(writer, 'sums over the contacts of a wheel: creep forces in the ' &
-                             // 'track, their moment, the lateral part of the normal forces')
+                             // 'track, their moment, the lateral part of the normal forces; the height')
             call put_header(writer, [character(len=16) :: wheel_columns, 'change', 'contacts', &
                                      sums, (sums(k)(:index(sums(k), '_', back=.true.)) &
                                             // 'linear', k=1, size(sums)), &

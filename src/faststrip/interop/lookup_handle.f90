@@ -3,12 +3,13 @@ module faststrip_interop_lookup_handle
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_intptr_t, c_ptr, c_loc, c_f_pointer
     use, intrinsic :: iso_fortran_env, only: int8
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
-                                     st_workspace_too_small, st_ok
+                                     st_workspace_too_small, st_file_format, st_ok
     use faststrip_interop_register, only: enter_register, leave_register, look_up_register, &
                                           kind_lookup
     use faststrip_lookup_bytes, only: open_lookup
     use faststrip_lookup_hertz, only: look_up_hertz
-    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz, lookup_kind_wheel
+    use faststrip_lookup_table, only: lookup_t, lookup_kind_hertz, lookup_kind_wheel, &
+                                      n_wheel_errors
     use faststrip_lookup_wheel, only: look_up_contacts, look_up_wheel
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     implicit none
@@ -16,10 +17,15 @@ module faststrip_interop_lookup_handle
 
     public :: new_lookup, free_lookup, find_lookup, look_up_states, describe_lookup, n_about
     public :: find_contacts, look_up_wheels, describe_wheel, n_about_wheel
+    public :: describe_z, n_about_z
 
     !> Numbers about a table.
     !> Given: by the interface.
-    integer, parameter :: n_about = 23, n_about_wheel = 60
+    integer, parameter :: n_about = 23, n_about_wheel = 60, n_about_z = 12
+
+    ! Numbers about the table of a wheel before the errors; which error is that of z.
+    ! Given: by the interface.
+    integer, parameter :: before_errors = 12, at_z = n_wheel_errors
 
 contains
 
@@ -175,9 +181,27 @@ contains
             numbers = [lookup%nu, wheel%shear, lookup%promised, real(wheel%tested, c_double), &
                        real(wheel%slots, c_double), wheel%y%x([1, wheel%y%n]), &
                        wheel%yaw%x([1, wheel%yaw%n]), wheel%load%x([1, wheel%load%n]), &
-                       reshape(wheel%errors, [size(wheel%errors)])]
+                       reshape(wheel%errors(:at_z - 1, :, :, :), [n_about_wheel - before_errors])]
         end associate
     end function describe_wheel
+
+    !> Errors of z: mean, 99th percentile, worst; linear, cubic; all states, those where contacts
+    !> come or go.
+    pure subroutine describe_z(lookup, numbers, status)
+        type(lookup_t), intent(in) :: lookup !! opened, of a wheel
+        real(c_double), intent(out) :: numbers(n_about_z) !! loads that they make over the load
+        type(status_t), intent(out) :: status
+            !! `st_file_format`: an older table, whose errors of z are not known
+
+        numbers = 0.0_c_double
+        call clear_status(status)
+        if (lookup%wheel%n_errors < at_z) then
+            call set_status(status, st_file_format, 'an older table, whose errors of z are not ' &
+                            // 'known')
+        else
+            numbers = reshape(lookup%wheel%errors(at_z, :, :, :), [n_about_z])
+        end if
+    end subroutine describe_z
 
     !> Numbers about a table of ellipses, as the header has them; zero for another one.
     pure function describe_lookup(lookup) result(numbers)

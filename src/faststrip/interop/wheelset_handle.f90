@@ -5,6 +5,7 @@ module faststrip_interop_wheelset_handle
                                      st_bad_argument, st_workspace_too_small, st_ok
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t, pure_rolling
+    use faststrip_interop_lookup_handle, only: find_lookup
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
     use faststrip_interop_solution, only: mirror_t
     use faststrip_normal_cells_lattice, only: lattice_workspace_t, lend_elements
@@ -14,7 +15,9 @@ module faststrip_interop_wheelset_handle
                                            doubt_pressure
     use faststrip_base_plausible, only: of_radius
     use faststrip_wheelset_plausible, only: state_names_t, find_state_doubts
+    use faststrip_lookup_table, only: lookup_t
     use faststrip_wheelset_derivatives, only: find_wheelset_derivatives
+    use faststrip_wheelset_enter, only: enter_lookup
     use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheel_workspace_t, &
@@ -25,7 +28,7 @@ module faststrip_interop_wheelset_handle
     public :: wheelset_handle_t
     public :: allocate_wheelset, free_wheelset, find_wheelset, take_wheels, wheelset_solve
     public :: contact_count, contact_place, find_contact, contact_mirror
-    public :: copy_wheelset, pitch_rate_of, wheelset_derivatives
+    public :: copy_wheelset, pitch_rate_of, wheelset_derivatives, use_lookup
 
     ! Given: `FASTSTRIP_LOCKED_WHEELS`, what stands for a pitch rate of 0.
     real(wp), parameter :: locked_wheels = 1.0e300_wp
@@ -40,6 +43,7 @@ module faststrip_interop_wheelset_handle
         real(wp) :: pitch_rate_difference = 0.0_wp !! left less right, rad/s; likewise
         type(status_t) :: status      !! of the last call
         type(doubts_t) :: doubts      !! what was outside of practice in the last state
+        integer(c_intptr_t) :: lookup = 0 !! handle of its lookup table; 0: none
         real(wp) :: derivatives(6, 8, 2) = 0.0_wp
             !! as `find_wheelset_derivatives` has them, of the last call for them
     end type wheelset_handle_t
@@ -127,6 +131,7 @@ contains
         to%has = from%has
         to%rail = from%rail
         to%pitch_rate_difference = from%pitch_rate_difference
+        to%lookup = from%lookup
         to%doubts = from%doubts
         call clear_status(to%status)
     end subroutine copy_wheelset
@@ -188,6 +193,43 @@ contains
         if (number >= locked_wheels) rate = 0.0_wp
     end function pitch_rate_of
 
+    !> Let a lookup table answer for a wheelset where it reaches.
+    subroutine use_lookup(handle, number, order)
+        type(wheelset_handle_t), intent(inout) :: handle !! its status tells how it ended
+        integer(c_intptr_t), intent(in) :: number        !! of the table's handle; 0: none any more
+        integer(c_int), intent(in) :: order              !! of interpolation, 1 or 3
+
+        type(lookup_t), pointer :: lookup
+        type(environment_t) :: environment
+
+        handle%has = .false.
+        handle%doubts%n = 0
+        lookup => null()
+        if (number /= 0) call find_lookup(number, lookup, handle%status%code)
+        if (number /= 0 .and. .not. associated(lookup)) then
+            call set_status(handle%status, st_bad_argument, 'no lookup table, or one that was freed')
+            return
+        end if
+        call hold_environment(environment)
+        call enter_lookup(handle%model, handle%workspace, lookup, int(order), handle%result, &
+                          handle%status)
+        call restore_environment(environment)
+        if (.not. is_error(handle%status)) handle%lookup = number
+    end subroutine use_lookup
+
+    ! The table of a handle, which may have been freed.
+    subroutine take_table(handle)
+        type(wheelset_handle_t), intent(inout) :: handle
+
+        integer(c_int) :: code
+
+        handle%model%lookup => null()
+        if (handle%lookup == 0) return
+        call find_lookup(handle%lookup, handle%model%lookup, code)
+        if (code /= st_ok) call set_status(handle%status, st_bad_argument, &
+                                           'the wheelset''s lookup table was freed')
+    end subroutine take_table
+
     !> Solve the contacts of a wheelset; its result has them, unless they are more than fit.
     subroutine wheelset_solve(handle, state, demand, warm_start, capacity, n)
         type(wheelset_handle_t), intent(inout) :: handle !! its status tells how it ended
@@ -205,6 +247,9 @@ contains
         handle%doubts%n = 0
         ! As if it had never been solved.
         if (.not. warm_start) handle%workspace%has_last = .false.
+        call clear_status(handle%status)
+        call take_table(handle)
+        if (is_error(handle%status)) return
         call hold_environment(environment)
         call doubt_material(handle%model%case, case_names_t(), handle%doubts)
         call add_doubt(handle%doubts, of_radius, 'radius', handle%model%radius)
@@ -273,6 +318,9 @@ contains
                             // count_text(i))
         else
             call contact_place(handle, i, side, k)
+            if (handle%result%wheel(side)%solutions == 0) &
+                call set_status(handle%status, st_bad_argument, 'a contact by a lookup table has ' &
+                                // 'no strips, elements or wear')
         end if
     end subroutine find_contact
 

@@ -29,9 +29,10 @@ module faststrip_lookup_table
     !> Tuned [contacts]. Origin: capacity.
     integer, parameter :: most_slots = 6
     !> Errors of a wheel's table: creep forces ahead and across, their moment, all over mu times the
-    !> normal forces; the lateral part of the normal forces, over them.
+    !> normal forces; the lateral part of the normal forces, over them; the height z, as the load
+    !> that it makes by Hertz' law, over the load.
     !> Given: numbers of the file format.
-    integer, parameter :: n_wheel_errors = 4
+    integer, parameter :: n_wheel_errors = 5
 
     !> What the table of a wheel on a rail has beside the faces.
     type :: wheel_part_t
@@ -47,6 +48,7 @@ module faststrip_lookup_table
             !! 1
         integer, allocatable :: set(:, :) !! slots, nodes: number of the contact whose faces count
         integer :: tested(2) = 0     !! fresh states: all; those in cells where contacts appear
+        integer :: n_errors = n_wheel_errors !! that are known: the first four in older files
         real(wp) :: errors(n_wheel_errors, 3, 2, 2) = 0.0_wp
             !! mean, 99th percentile, worst; linear, cubic; as `tested`
     end type wheel_part_t

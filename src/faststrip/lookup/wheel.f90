@@ -19,11 +19,12 @@ module faststrip_lookup_wheel
     use faststrip_lookup_faces, only: faces_cell_t, find_faces_cell, sum_faces, finish_faces, &
                                       n_forces, lookup_linear, lookup_cubic
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, at_load, &
-                                      at_area, at_length, at_creep, at_spin
+                                      at_height, at_area, at_length, at_creep, at_spin
     implicit none
     private
 
-    public :: look_up_contacts, look_up_wheel, contacts_change, n_wheel_place, n_wheel_state
+    public :: look_up_contacts, look_up_wheel, load_at_height, contacts_change
+    public :: n_wheel_place, n_wheel_state
 
     !> Numbers of a place: y (mm), yaw (rad), load (N). Of a state: those, mu, cksi, ceta, cphi
     !> (rad/mm).
@@ -39,6 +40,11 @@ module faststrip_lookup_wheel
     ! Given: Hertz' law.
     real(wp), parameter :: powers(at_area:n_contact_numbers) = &
         [2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 3.0_wp]/3.0_wp
+
+    ! Tuned [1, steps]: of the load, how near a height is met, and how often it is tried. Origin:
+    ! safeguard: Newton's method takes four.
+    real(wp), parameter :: near_load = 1.0e-13_wp
+    integer, parameter :: most_tries = 60
 
     ! Nodes about a place: four along each axis.
     integer, parameter :: most_about = 4**n_wheel_place
@@ -136,6 +142,78 @@ contains
             call find_jacobian(state, numbers, linear, x, f, by_creepage, by_place, c, jacobian)
         end associate
     end subroutine look_up_wheel
+
+    !> The vertical part of the normal forces of a wheel at a height.
+    pure subroutine load_at_height(lookup, order, y, yaw, z, load, is_there)
+        type(lookup_t), intent(in) :: lookup !! of `open_lookup`, of a wheel
+        integer, intent(in) :: order         !! `lookup_linear` or `lookup_cubic`
+        real(wp), intent(in) :: y, yaw       !! of the wheelset, mm, rad
+        real(wp), intent(in) :: z            !! of its centre, mm
+        real(wp), intent(out) :: load        !! N; 0 if it is not there
+        logical, intent(out) :: is_there     !! are y, yaw and this load within the table?
+
+        type(stencil_t) :: in_y, in_yaw, in_load
+        real(wp) :: low, high, miss, heights(4)
+        integer :: width(n_wheel_place), first, last, k, i
+
+        load = 0.0_wp
+        associate (wheel => lookup%wheel, loads => lookup%wheel%load)
+            is_there = is_within(wheel%y, y) .and. is_within(wheel%yaw, yaw)
+            if (.not. is_there) return
+            call find_along(wheel%y, order, y, in_y, width(1))
+            call find_along(wheel%yaw, order, yaw, in_yaw, width(2))
+            first = 1
+            last = loads%n
+            is_there = height_of(first) <= z .and. z <= height_of(last)
+            if (.not. is_there) return
+            do while (last - first > 1)
+                k = (first + last)/2
+                if (height_of(k) <= z) then
+                    first = k
+                else
+                    last = k
+                end if
+            end do
+            low = loads%x(first)
+            high = loads%x(last)
+            load = 0.5_wp*(low + high)
+            call find_along(loads, order, load, in_load, width(3))
+            do k = 1, width(3)
+                heights(k) = height_of(in_load%first + k - 1)
+            end do
+            do i = 1, most_tries
+                miss = dot_product(in_load%w(:width(3)), heights(:width(3))) - z
+                if (miss > 0.0_wp) then
+                    high = load
+                else
+                    low = load
+                end if
+                miss = miss/dot_product(in_load%dw(:width(3)), heights(:width(3)))
+                load = load - miss
+                ! A step that leads out of the bracket, or nowhere.
+                if (.not. (load >= low .and. load <= high)) load = 0.5_wp*(low + high)
+                if (abs(miss) <= near_load*load .or. high - low <= near_load*load) return
+                call find_along(loads, order, min(load, loads%x(last)), in_load, width(3))
+            end do
+        end associate
+
+    contains
+
+        ! Height at a node of the load. All slots have it.
+        pure real(wp) function height_of(k) result(height)
+            integer, intent(in) :: k
+
+            integer :: j, row
+
+            height = 0.0_wp
+            do j = 1, width(2)
+                row = lookup%wheel%y%n*(in_yaw%first + j - 2 + lookup%wheel%yaw%n*(k - 1)) &
+                      + in_y%first
+                height = height + in_yaw%w(j)*dot_product(in_y%w(:width(1)), &
+                         lookup%wheel%contacts(at_height, 1, row:row + width(1) - 1))
+            end do
+        end function height_of
+    end subroutine load_at_height
 
     !> Does a contact come or go within the cell of the place?
     pure logical function contacts_change(lookup, place) result(change)
@@ -331,11 +409,18 @@ contains
         type(status_t), intent(inout) :: status
 
         if (status%code /= st_ok) return
-        if (x >= axis%x(1) .and. x <= axis%x(axis%n)) return
+        if (is_within(axis, x)) return
         call set_status(status, st_out_of_range, name // ' must be within the table, ' // &
                         trim(number_text(axis%x(1))) // ' to ' // &
                         trim(number_text(axis%x(axis%n))) // ', got ' // number_text(x))
     end subroutine check_along
+
+    pure logical function is_within(axis, x)
+        type(lookup_axis_t), intent(in) :: axis
+        real(wp), intent(in) :: x
+
+        is_within = x >= axis%x(1) .and. x <= axis%x(axis%n)
+    end function is_within
 
     !> Refuse a slot, friction and creepages that are none.
     pure subroutine check_motion(lookup, slot, state, status)

@@ -19,8 +19,9 @@ module faststrip_lookup_wheel_bytes
 
     ! Whole numbers behind those of the header: nodes of yaw and load, slots, contacts with faces.
     integer, parameter :: n_more = 4
-    ! Numbers about the table: nu, G, what was promised, two counts of tests, the errors.
-    integer, parameter :: n_errors = 12*n_wheel_errors, n_parameters = 5 + n_errors
+    ! Numbers about the table: nu, G, what was promised, two counts of tests; mean, 99th percentile
+    ! and worst of each error, by two orders, of two kinds of states. Older files have no error of z.
+    integer, parameter :: n_before = 5, of_error = 12, least_errors = n_wheel_errors - 1
     ! Tuned [bytes]: the largest table. Origin: safeguard: its size fits 64 bits.
     real(wp), parameter :: most_bytes = 1.0e15_wp
 
@@ -33,7 +34,7 @@ contains
         integer(int64), intent(out) :: length             !! bytes
 
         counts(6) = int(lookup%wheel%y%n, int32)
-        counts(7) = n_parameters
+        counts(7) = int(n_before + of_error*lookup%wheel%n_errors, int32)
         associate (wheel => lookup%wheel)
             length = length_of(counts, int([wheel%yaw%n, wheel%load%n, wheel%slots, wheel%sets], &
                                            int32))
@@ -56,7 +57,8 @@ contains
         if (any(counts(4:6) < least_nodes) .or. any(counts(4:6) > most_nodes)) return
         if (more(1) < 1 .or. more(1) > most_nodes .or. more(2) < least_nodes) return
         if (more(2) > most_nodes .or. more(3) < 1 .or. more(3) > most_slots) return
-        if (more(4) < 1 .or. counts(7) /= n_parameters) return
+        if (more(4) < 1) return
+        if (all(counts(7) /= n_before + of_error*[least_errors, n_wheel_errors])) return
         if (real(counts(4), wp)*real(counts(5), wp)**2*real(more(4), wp)*n_faces*n_forces &
             + real(counts(6), wp)*real(more(1), wp)*real(more(2), wp) > most_bytes) return
         are_counts = .true.
@@ -79,7 +81,7 @@ contains
 
         associate (places => int(counts(6), int64)*more(1)*more(2)*more(3))
             length = of_header + of_word*n_more &
-                     + of_double*(n_parameters + sum(int(counts(4:6), int64)) + more(1) + more(2) &
+                     + of_double*(sum(int(counts(4:7), int64)) + more(1) + more(2) &
                                   + n_contact_numbers*places) &
                      + of_word*(places + values_of(counts, more)) + counts(8) + of_word
         end associate
@@ -101,7 +103,7 @@ contains
             !! memory
 
         integer(int32) :: more(n_more)
-        real(wp) :: parameters(n_parameters)
+        real(wp) :: parameters(counts(7))
         integer(int64) :: at, nodes, i
         integer :: j, failure
 
@@ -142,7 +144,9 @@ contains
             wheel%shear = parameters(2)
             lookup%promised = parameters(3)
             wheel%tested = nint(min(abs(parameters(4:5)), real(huge(1), wp)))
-            wheel%errors = reshape(parameters(6:), shape(wheel%errors))
+            wheel%n_errors = (counts(7) - n_before)/of_error
+            wheel%errors(:wheel%n_errors, :, :, :) = &
+                reshape(parameters(n_before + 1:), [wheel%n_errors, 3, 2, 2])
         end associate
         call check_parts(lookup, parameters, status)
     end subroutine take_wheel
@@ -197,7 +201,8 @@ contains
             call put_word(int(wheel%slots, int32), at, bytes)
             call put_word(int(wheel%sets, int32), at, bytes)
             call put_doubles([lookup%nu, wheel%shear, lookup%promised, real(wheel%tested, wp), &
-                              reshape(wheel%errors, [n_errors])], at, bytes)
+                              reshape(wheel%errors(:wheel%n_errors, :, :, :), &
+                                      [of_error*wheel%n_errors])], at, bytes)
             call put_doubles(lookup%q%x, at, bytes)
             call put_doubles(lookup%ratio%x, at, bytes)
             call put_doubles(wheel%y%x, at, bytes)

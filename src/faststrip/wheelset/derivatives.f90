@@ -71,6 +71,11 @@ contains
         do side = side_right, side_left
             if (.not. wants(side) .or. is_error(status)) cycle
             if (result%wheel(side)%n == 0) cycle
+            if (result%wheel(side)%solutions == 0) then
+                call set_status(status, st_bad_argument, 'a wheel that a lookup table answers ' &
+                                // 'for has no derivatives: look them up, or take strips')
+                cycle
+            end if
             call find_of_wheel(model, workspace, side, result%wheel(side), near(1), &
                                derivatives(:, :, side), status)
         end do

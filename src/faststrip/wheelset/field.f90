@@ -27,7 +27,8 @@ contains
         logical :: is_small
 
         call clear_status(status)
-        if (i < 1 .or. i > result%wheel(side)%n .or. .not. workspace%has_last) then
+        if (i < 1 .or. i > result%wheel(side)%n .or. .not. workspace%has_last &
+            .or. result%wheel(side)%solutions == 0) then
             call set_status(status, st_bad_argument, 'there is no such contact of the wheel')
             return
         end if

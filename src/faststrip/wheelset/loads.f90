@@ -9,7 +9,8 @@ module faststrip_wheelset_loads
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, is_near, usual_approach, equilibrium, &
                                            near_enough
-    use faststrip_wheelset_height, only: set_outline, try_height
+    use faststrip_wheelset_height, only: set_outline, try_height, as_right
+    use faststrip_wheelset_lookup, only: look_up_at_load
     use faststrip_wheelset_roll, only: roll_search_t, next_roll
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheel_result_t, wheel_workspace_t, wheelset_workspace_t, &
@@ -32,11 +33,17 @@ contains
         type(wheelset_workspace_t), intent(inout) :: workspace !! reserved
 
         workspace%has_last = .false.
-        workspace%wheel%n = 0
-        workspace%wheel%approach = 0.0_wp
-        workspace%wheel%slope = 0.0_wp
+        call forget_strips(workspace%wheel)
         workspace%stiffness = 0.0_wp
     end subroutine start_afresh
+
+    elemental subroutine forget_strips(workspace)
+        type(wheel_workspace_t), intent(inout) :: workspace
+
+        workspace%n = 0
+        workspace%approach = 0.0_wp
+        workspace%slope = 0.0_wp
+    end subroutine forget_strips
 
     !> Each wheel with a height of its own.
     subroutine solve_loads(model, workspace, state, demand, result, status)
@@ -72,9 +79,17 @@ contains
 
         type(approach_search_t) :: search
         real(wp) :: touch, load
-        logical :: is_warm
+        logical :: is_warm, is_there
 
         load = demand%load(side)
+        if (associated(model%lookup) .and. load > 0.0_wp) then
+            call look_up_at_load(model, model%pair(side), as_right(state, side), load, wheel, &
+                                 is_there)
+            if (is_there) then
+                call forget_strips(workspace%wheel(side))
+                return
+            end if
+        end if
         call set_outline(model, workspace, state, side, touch, status)
         if (is_error(status)) return
         if (.not. load > 0.0_wp) then
@@ -120,9 +135,7 @@ contains
         real(wp), intent(in) :: touch
         type(wheel_result_t), intent(inout) :: wheel
 
-        workspace%n = 0
-        workspace%approach = 0.0_wp
-        workspace%slope = 0.0_wp
+        call forget_strips(workspace)
         call clear_status(wheel%status)
         wheel%n = 0
         wheel%force = 0.0_wp

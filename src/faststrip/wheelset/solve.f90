@@ -25,7 +25,7 @@ module faststrip_wheelset_solve
                                            is_found, usual_approach, most_tries
     use faststrip_wheelset_balance, only: solve_for_balance
     use faststrip_wheelset_guide, only: needs_guide, take_guide
-    use faststrip_wheelset_height, only: set_outline, try_height
+    use faststrip_wheelset_height, only: set_outline, try_height, try_table
     use faststrip_wheelset_loads, only: start_afresh, solve_loads, solve_for_roll, name_jump
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheelset_workspace_t, &
@@ -368,9 +368,12 @@ contains
 
         real(wp) :: touch
         integer :: side
+        logical :: is_there
 
         do side = side_right, side_left
             if (.not. demand%wants(side)) cycle
+            call try_table(model, workspace, state, side, state%z, result%wheel(side), is_there)
+            if (is_there) cycle
             call set_outline(model, workspace, state, side, touch, status)
             if (is_error(status)) return
             call try_height(model, workspace, state, side, state%z, result%wheel(side))
@@ -441,7 +444,7 @@ contains
         do side = side_right, side_left
             if (.not. demand%wants(side)) cycle
             associate (wheel => result%wheel(side))
-                if (model%case%estimate) &
+                if (model%case%estimate .and. wheel%solutions > 0) &
                     call estimate_wheel(model, workspace%wheel(side), wheel)
                 if (.not. is_error(wheel%status)) call name_pressures(model%case%yield, wheel)
                 wheel%roll = state%roll

@@ -11,6 +11,8 @@ module faststrip_wheelset_types
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t
     use faststrip_geometry_wheel_outline, only: outline_t
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
+    use faststrip_lookup_faces, only: lookup_cubic
+    use faststrip_lookup_table, only: lookup_t
     implicit none
     private
 
@@ -64,6 +66,9 @@ module faststrip_wheelset_types
             !! share by which forces of a contact grow with its approach rate, s/mm; 0: none
         real(wp) :: speed_floor = 0.0_wp
             !! of rolling speeds, below which forces grow with the velocities, mm/s; 0: none
+        type(lookup_t), pointer :: lookup => null()
+            !! of `enter_lookup`, the caller's: answers within its ends, strips beyond; null: none
+        integer :: lookup_order = lookup_cubic    !! of its interpolation
     end type wheelset_model_t
 
     !> What is prescribed.
@@ -114,7 +119,8 @@ module faststrip_wheelset_types
         real(wp) :: force_wheelset(3) = 0.0_wp           !! the same in the wheelset's frame, N
         real(wp) :: moment(3) = 0.0_wp                   !! about the wheelset's centre, in the
                                                          !! track, N mm
-        integer :: solutions = 0                         !! contact problems that were solved
+        integer :: solutions = 0                         !! contact problems that were solved; 0 of
+                                                         !! a wheel that a table has answered for
     end type wheel_result_t
 
     !> Figures of a wheelset.

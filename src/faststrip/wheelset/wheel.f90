@@ -28,7 +28,8 @@ module faststrip_wheelset_wheel
     private
 
     public :: solve_wheel_at, estimate_wheel, name_pressures, mirror_wheel, reverse_wheel
-    public :: take_motion, move_wheel, lend_scratch
+    public :: take_motion, move_wheel, lend_scratch, find_motion, find_contact_force, place_on_wheel
+    public :: add_contacts
 
     ! Tuned [1]: of the strips' last step. Origin: measured: with 1e-10 a step of a wheelset costs a
     ! tenth more; with five strips forces from the last solution are those without it within 2e-7 of
@@ -143,9 +144,9 @@ contains
                                            workspace%contact(to)%solver%lattice)
     end subroutine lend_scratch
 
-    ! The sums of a wheel's contacts.
+    !> The sums of a wheel's contacts.
     pure subroutine add_contacts(wheel)
-        type(wheel_result_t), intent(inout) :: wheel
+        type(wheel_result_t), intent(inout) :: wheel !! with solved contacts; gets the sums
 
         integer :: i
 
@@ -306,15 +307,15 @@ contains
         axes%centre(3) = axes%centre(3) + lowered
     end function lowered_axes
 
-    ! Creepages, speed and approach rate of a contact.
+    !> Creepages, speed and approach rate of a contact.
     subroutine find_motion(model, pair, state, axes, frame, case, contact)
-        type(wheelset_model_t), intent(in) :: model
-        type(wheel_on_rail_t), intent(in) :: pair
-        type(wheelset_state_t), intent(in) :: state
-        type(wheelset_axes_t), intent(in) :: axes  ! where the wheelset is
-        type(contact_frame_t), intent(in) :: frame
-        type(contact_case_t), intent(in) :: case   ! its penetration is known
-        type(wheel_contact_t), intent(inout) :: contact
+        type(wheelset_model_t), intent(in) :: model      !! made
+        type(wheel_on_rail_t), intent(in) :: pair        !! of this side
+        type(wheelset_state_t), intent(in) :: state      !! as of a right wheel
+        type(wheelset_axes_t), intent(in) :: axes        !! where the wheelset is
+        type(contact_frame_t), intent(in) :: frame       !! of the contact
+        type(contact_case_t), intent(in) :: case         !! its penetration is known
+        type(wheel_contact_t), intent(inout) :: contact  !! gets them
 
         real(wp) :: point(3), moving(3)
 
@@ -332,13 +333,13 @@ contains
         end associate
     end subroutine find_motion
 
-    ! Force and moment of a solved contact on its rail. Damping is that of Hunt and Crossley,
-    ! N (1 + 3/2 alpha v), never below 0: it vanishes where bodies touch first. Friction is in
-    ! proportion, which is exact where all slides.
+    !> Force and moment of a solved contact on its rail. Damping is that of Hunt and Crossley,
+    !> N (1 + 3/2 alpha v), never below 0: it vanishes where bodies touch first. Friction is in
+    !> proportion, which is exact where all slides.
     pure subroutine find_contact_force(model, axes, contact)
-        type(wheelset_model_t), intent(in) :: model
-        type(wheelset_axes_t), intent(in) :: axes
-        type(wheel_contact_t), intent(inout) :: contact
+        type(wheelset_model_t), intent(in) :: model     !! made
+        type(wheelset_axes_t), intent(in) :: axes       !! where the wheelset is
+        type(wheel_contact_t), intent(inout) :: contact !! solved; gets them
 
         type(contact_frame_t) :: frame
         real(wp) :: damped
@@ -366,12 +367,12 @@ contains
         case%friction%speed = max(contact%speed, least_speed)
     end subroutine take_motion
 
-    ! Where a point of the track is in the frame of the wheel's profile.
+    !> Where a point of the track is in the frame of the wheel's profile.
     pure subroutine place_on_wheel(pair, axes, point, contact)
-        type(wheel_on_rail_t), intent(in) :: pair
-        type(wheelset_axes_t), intent(in) :: axes
-        real(wp), intent(in) :: point(3)
-        type(wheel_contact_t), intent(inout) :: contact
+        type(wheel_on_rail_t), intent(in) :: pair       !! of this side
+        type(wheelset_axes_t), intent(in) :: axes       !! where the wheelset is
+        real(wp), intent(in) :: point(3)                !! in the track, mm
+        type(wheel_contact_t), intent(inout) :: contact !! gets the place and the rolling radius
 
         real(wp) :: arm(3), down
 

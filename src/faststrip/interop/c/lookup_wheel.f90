@@ -6,14 +6,14 @@ module faststrip_interop_c_lookup_wheel
     use faststrip_base_status, only: status_t, st_bad_argument, st_ok
     use faststrip_interop_c, only: numbers_at
     use faststrip_interop_lookup_handle, only: find_lookup, find_contacts, look_up_wheels, &
-                                               describe_wheel, n_about_wheel
+                                               describe_wheel, n_about_wheel, describe_z, n_about_z
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers
     use faststrip_lookup_wheel, only: n_wheel_place, n_wheel_state
     implicit none
     private
 
-    public :: faststrip_lookup_wheel_about, faststrip_lookup_wheel_contacts, &
-              faststrip_lookup_wheel_forces
+    public :: faststrip_lookup_wheel_about, faststrip_lookup_wheel_z_errors, &
+              faststrip_lookup_wheel_contacts, faststrip_lookup_wheel_forces
 
     ! Forces of a state.
     integer, parameter :: n_forces = 3
@@ -36,6 +36,22 @@ contains
         found = describe_wheel(table)
         code = st_ok
     end function faststrip_lookup_wheel_about
+
+    !> Errors of z of the table of a wheel.
+    integer(c_int) function faststrip_lookup_wheel_z_errors(lookup, errors) bind(c) result(code)
+        integer(c_intptr_t), value :: lookup !! a handle
+        type(c_ptr), value :: errors         !! 12, written
+
+        type(lookup_t), pointer :: table
+        type(status_t) :: status
+
+        call find_wheel(lookup, table, code)
+        if (code /= st_ok) return
+        code = st_bad_argument
+        if (.not. c_associated(errors)) return
+        call describe_z(table, numbers_at(errors, n_about_z), status)
+        code = status%code
+    end function faststrip_lookup_wheel_z_errors
 
     ! The table of a handle; none if it is not that of a wheel.
     subroutine find_wheel(lookup, table, code)

@@ -11,8 +11,7 @@ module faststrip_interop_c_profiles
     use faststrip_interop_c_wheelset, only: read_source_at
     use faststrip_interop_profile_points, only: gap_of_profiles, copy_gap, draw_profile, n_setup, &
                                                 n_contact
-    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset, contact_count, &
-                                                 contact_place
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset, find_contact
     use faststrip_interop_wheelset_new, only: profile_source_t
     use faststrip_numerics_reversal, only: reverse, reverse_negated
     use faststrip_wheelset_strips, only: find_wheel_gap
@@ -98,13 +97,8 @@ contains
         call find_wheelset(wheelset, handle, code)
         if (code /= st_ok) return
         call check_arrays(capacity, [n, y, h, inv2r, inclination], handle%status)
-        if (.not. is_error(handle%status) .and. (i < 0 .or. i >= contact_count(handle))) &
-            call set_status(handle%status, st_bad_argument, 'there is no such contact: ' // &
-                            count_text(i))
-        if (.not. is_error(handle%status)) then
-            call contact_place(handle, i + 1, side, k)
-            call write_gap()
-        end if
+        if (.not. is_error(handle%status)) call find_contact(handle, i + 1, side, k)
+        if (.not. is_error(handle%status)) call write_gap()
         code = handle%status%code
 
     contains

@@ -14,7 +14,7 @@ module faststrip_interop_c_wheelset
     use faststrip_interop_solution, only: strip_count
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, free_wheelset, find_wheelset, &
                                                  take_wheels, wheelset_solve, contact_place, &
-                                                 find_contact, contact_mirror, copy_wheelset, &
+                                                 find_contact, contact_mirror, copy_wheelset, use_lookup, &
                                                  pitch_rate_of
     use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
                                               source_name_length, default_dimensions, new_wheelset
@@ -24,6 +24,7 @@ module faststrip_interop_c_wheelset
 
     public :: faststrip_default_wheelset, faststrip_wheelset_new, faststrip_wheelset_free
     public :: faststrip_wheelset_solve, faststrip_wheelset_copy, faststrip_wheelset_last_message
+    public :: faststrip_wheelset_use_lookup
     public :: faststrip_wheelset_get_strips, faststrip_wheelset_get_elements
     public :: c_setup_t, find_setup, read_sources, read_source_at
 
@@ -166,6 +167,21 @@ contains
         if (code /= st_ok .or. from == to) return
         call copy_wheelset(source, target)
     end function faststrip_wheelset_copy
+
+    !> Let a lookup table answer for a wheelset where it reaches.
+    integer(c_int) function faststrip_wheelset_use_lookup(wheelset, lookup, order) bind(c) &
+        result(code)
+        integer(c_intptr_t), value :: wheelset !! a handle
+        integer(c_intptr_t), value :: lookup   !! a handle; null: none any more
+        integer(c_int), value :: order         !! of interpolation, 1 or 3
+
+        type(wheelset_handle_t), pointer :: handle
+
+        call find_wheelset(wheelset, handle, code)
+        if (code /= st_ok) return
+        call use_lookup(handle, lookup, order)
+        code = handle%status%code
+    end function faststrip_wheelset_use_lookup
 
     !> Solve the contacts of both wheels, or of one.
     integer(c_int) function faststrip_wheelset_solve(wheelset, state, demand, capacity, n, &

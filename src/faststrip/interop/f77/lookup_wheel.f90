@@ -14,19 +14,20 @@
 !> FORCE(1,I), FORCE(2,I) FX, FY on the rail, N          FORCE(3,I) MZ, N mm
 !> DJAC(K,J,I) derivative of FORCE(K,I) by STATE(J,I)    ISTAT(I) status of state I
 !> ABOUT    as numbers of faststrip_lookup_wheel_about; ABOUT(6) is the number of slots
+!> ERRZ     twelve errors of Z, as of faststrip_lookup_wheel_z_errors
 !> ```
 module faststrip_interop_f77_lookup_wheel
     use, intrinsic :: iso_c_binding, only: c_int, c_double
     use faststrip_base_status, only: status_t, st_bad_argument
     use faststrip_interop_f77, only: n_iwork, number_of
     use faststrip_interop_lookup_handle, only: find_lookup, find_contacts, look_up_wheels, &
-                                               describe_wheel, n_about_wheel
+                                               describe_wheel, n_about_wheel, describe_z, n_about_z
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers
     use faststrip_lookup_wheel, only: n_wheel_place, n_wheel_state
     implicit none
     private
 
-    public :: fslwin, fslcon, fslwhl
+    public :: fslwin, fslwze, fslcon, fslwhl
 
     ! Forces of a state.
     integer, parameter :: n_forces = 3
@@ -47,6 +48,25 @@ contains
         call find_wheel(iwork, lookup, info)
         if (associated(lookup)) about = describe_wheel(lookup)
     end subroutine fslwin
+
+    !> CALL FSLWZE(IWORK, ERRZ, INFO)
+    !>
+    !> Errors of Z of the table of a wheel. INFO 100: another table; 121: a file of an older
+    !> version, which does not know them.
+    subroutine fslwze(iwork, errors, info) bind(c, name='fslwze_')
+        integer(c_int), intent(in) :: iwork(n_iwork)     !! made by FSLOPN
+        real(c_double), intent(out) :: errors(n_about_z) !! as above; zero when there is an error
+        integer(c_int), intent(out) :: info              !! status
+
+        type(lookup_t), pointer :: lookup
+        type(status_t) :: status
+
+        errors = 0.0_c_double
+        call find_wheel(iwork, lookup, info)
+        if (.not. associated(lookup)) return
+        call describe_z(lookup, errors, status)
+        info = status%code
+    end subroutine fslwze
 
     ! The table of a workspace; none if it is not that of a wheel.
     subroutine find_wheel(iwork, lookup, info)

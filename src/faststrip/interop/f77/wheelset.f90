@@ -61,7 +61,7 @@ module faststrip_interop_f77_wheelset
     use faststrip_interop_solution, only: read_elements
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, free_wheelset, find_wheelset, &
                                                  take_wheels, wheelset_solve, contact_place, &
-                                                 find_contact, contact_mirror, copy_wheelset, &
+                                                 find_contact, contact_mirror, copy_wheelset, use_lookup, &
                                                  pitch_rate_of
     use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
                                               default_dimensions, new_wheelset
@@ -70,7 +70,8 @@ module faststrip_interop_f77_wheelset
     implicit none
     private
 
-    public :: fswdft, fswnew, fsrail, fsptch, fsdamp, fswslv, fswset, fswstr, fswelm, fswcpy, fswfre
+    public :: fswdft, fswnew, fsrail, fsptch, fsdamp, fswslv, fswset, fswstr, fswelm, fswlkp
+    public :: fswcpy, fswfre
     public :: n_setup, read_dimensions, read_sources, find_column
 
     ! Lengths of the rows above.
@@ -418,6 +419,28 @@ contains
                                    area(:n), pn(:n), px(:n), py(:n), sx(:n), sy(:n), state(:n))
         end associate
     end subroutine fswelm
+
+    !> CALL FSWLKP(IWORK, ITABLE, IORDER, INFO)
+    !>
+    !> Let a lookup table answer for a wheelset where it reaches; strips do beyond. ITABLE as FSLOPN
+    !> made it; all zero, as FSLFRE leaves it: none any more. IORDER as FSLCON takes it.
+    subroutine fswlkp(iwork, table, order, info) bind(c, name='fswlkp_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
+        integer(c_int), intent(in) :: table(n_iwork) !! as above
+        integer(c_int), intent(in) :: order          !! as above
+        integer(c_int), intent(out) :: info          !! status
+
+        type(wheelset_handle_t), pointer :: handle
+        integer(c_intptr_t) :: number
+
+        call find_wheelset(number_of(iwork), handle, info)
+        if (.not. associated(handle)) return
+        number = number_of(table)
+        ! What is neither a table nor nothing is refused.
+        if (number == 0 .and. any(table /= 0)) number = -1
+        call use_lookup(handle, number, order)
+        info = handle%status%code
+    end subroutine fswlkp
 
     !> CALL FSWCPY(IFROM, ITO, INFO)
     !>
