@@ -16,11 +16,13 @@ module faststrip_tabulate_wheel
                                      first_error
     use faststrip_base_text, only: integer_text
     use faststrip_contact_methods, only: tangential_none
-    use faststrip_lookup_axis, only: lookup_axis_t, stencil_t, make_axis, cubic_stencil
+    use faststrip_lookup_axis, only: lookup_axis_t, stencil_t, make_axis, linear_stencil, &
+                                     cubic_stencil, least_nodes
     use faststrip_lookup_faces, only: n_forces, n_faces, creepages_at, lookup_linear, lookup_cubic
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, &
                                       n_wheel_errors, most_slots, at_load, at_angle, at_rail_y, &
-                                      at_height, at_area, at_pmax, at_length, at_creep, at_spin
+                                      at_height, at_area, at_pmax, at_length, at_creep, at_spin, &
+                                      rise_power, set_rise
     use faststrip_lookup_wheel, only: look_up_contacts, look_up_wheel, contacts_change, &
                                       n_wheel_place, n_wheel_state
     use faststrip_tabulate_contacts, only: wheel_solver_t, found_contacts_t, make_wheel_solver, &
@@ -262,7 +264,7 @@ contains
         integer, intent(in) :: middle             !! place
         real(wp) :: error
 
-        real(wp) :: miss(n_sums, n_lines*n_creepages)
+        real(wp) :: miss(n_sums, n_lines*n_creepages), x(size(axis%x))
         integer :: line, k, first, last
 
         if (axis%kind <= n_face_axes) then
@@ -271,10 +273,10 @@ contains
         end if
         associate (f => axis%f(:n_sums, :, :), place => axis%f(at_middle, :, middle))
             miss = f(:, :, middle) - 0.5_wp*(f(:, :, middle - 1) + f(:, :, middle + 1))
-            if (self%order == lookup_cubic) &
-                miss(n_sums, :) = f(n_sums, :, middle) - cubic_middle(axis%x, f(n_sums, :, :), &
-                                                                      middle)
-            miss(n_sums, :) = miss(n_sums, :)/axis%f(at_stretch, :, middle)
+            x = axis%x
+            if (axis%kind == axis_load) x = x**rise_power
+            miss(n_sums, :) = (f(n_sums, :, middle) - height_between(self%order, x, &
+                               f(n_sums, :, :), middle))/axis%f(at_stretch, :, middle)
             error = 0.0_wp
             do line = 1, n_lines
                 first = 1 + n_creepages*(line - 1)
@@ -288,22 +290,29 @@ contains
         end associate
     end function error_of_cell
 
-    ! The middle of a cell by cubics through the four nodes about it.
-    pure function cubic_middle(x, values, middle) result(there)
-        real(wp), intent(in) :: x(:)         ! places: nodes are 1, 3, 5, ...
-        real(wp), intent(in) :: values(:, :) ! samples, places
-        integer, intent(in) :: middle        ! place
-        real(wp) :: there(size(values, 1))
+    ! z in a cell, by the four nodes about it.
+    pure function height_between(order, x, z, middle) result(there)
+        integer, intent(in) :: order    ! of interpolation
+        real(wp), intent(in) :: x(:)    ! places: nodes are 1, 3, 5, ...
+        real(wp), intent(in) :: z(:, :) ! samples, places
+        integer, intent(in) :: middle   ! place in the cell
+        real(wp) :: there(size(z, 1))
 
         type(lookup_axis_t) :: nodes
         type(stencil_t) :: stencil
-        integer :: first
+        integer :: first, last
 
-        first = min(max(middle - 3, 1), size(x) - 6) ! Given: four nodes, every other place.
-        call make_axis(x(first:first + 6:2), nodes)
-        call cubic_stencil(nodes, x(middle), stencil)
-        there = matmul(values(:, first:first + 6:2), stencil%w)
-    end function cubic_middle
+        first = min(max(middle - 3, 1), size(x) - 2*(least_nodes - 1))
+        last = first + 2*(least_nodes - 1)
+        call make_axis(x(first:last:2), nodes)
+        if (order == lookup_cubic) then
+            call cubic_stencil(nodes, x(middle), stencil)
+        else
+            call linear_stencil(nodes, x(middle), stencil)
+            stencil%w = eoshift(stencil%w, 1 - stencil%first)
+        end if
+        there = matmul(z(:, first:last:2), stencil%w)
+    end function height_between
 
     !> Nodes of a table, as if each place had one contact.
     pure function nodes_of_wheel(self, axes) result(nodes)
@@ -335,6 +344,7 @@ contains
             wheel%y = axes(axis_y)
             wheel%yaw = axes(axis_y + 1)
             wheel%load = axes(axis_load)
+            call set_rise(wheel)
             wheel%shear = self%shear
             sizes = [wheel%y%n, wheel%yaw%n, wheel%load%n]
         end associate

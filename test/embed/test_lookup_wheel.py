@@ -1,7 +1,9 @@
 """The lookup table of a wheel gives the same contacts and forces in every interface."""
 
 import math
+import struct
 import subprocess
+import zlib
 
 import numpy as np
 
@@ -53,12 +55,50 @@ static void fill(void)
     states[4][0] = 77.0;
 }
 """
-BY_C = "#include <faststrip.h>\n" + SHOW + r"""
+WHEELSET = r"""
+static faststrip_wheelset_contact contact[FASTSTRIP_MOST_CONTACTS];
+static faststrip_wheelset_result result;
+static faststrip_wheelset *made(void)
+{
+    faststrip_wheelset_setup setup;
+    faststrip_case settings;
+    faststrip_profile wheels[2] = {{.name = "s1002"}}, rails[2] = {{.name = "60e1"}};
+    faststrip_wheelset *wheelset = NULL;
+    faststrip_default_wheelset(&setup, sizeof setup);
+    setup.inclination = 0.025;
+    faststrip_default_case(&settings, sizeof settings);
+    settings.estimate = 0;
+    if (faststrip_wheelset_new(&setup, wheels, rails, &settings, &wheelset, NULL, 0) != 0) exit(1);
+    return wheelset;
+}
+static int solve_at(faststrip_wheelset *wheelset, double y)
+{
+    faststrip_wheelset_state state = {.y = y, .speed = 2e4};
+    faststrip_wheelset_demand demand = {.kind = FASTSTRIP_BY_LOADS, .load_right = 8e4,
+                                        .load_left = 8e4};
+    int n;
+    return faststrip_wheelset_solve(wheelset, &state, &demand, FASTSTRIP_MOST_CONTACTS, &n, contact,
+                                    &result);
+}
+static void solve(faststrip_wheelset *wheelset, double y)
+{
+    double found[14];
+    if (solve_at(wheelset, y) != 0) exit(8);
+    printf("%d %d\n", result.n_solutions[0], result.n_solutions[1]);
+    memcpy(found, result.z, sizeof result.z);
+    memcpy(found + 2, result.force, sizeof result.force);
+    memcpy(found + 8, result.moment, sizeof result.moment);
+    show(14, found);
+}
+"""
+BY_C = "#include <faststrip.h>\n" + SHOW + WHEELSET + r"""
 int main(void)
 {
     faststrip_lookup *table = opened("wheel.fslt");
     if (faststrip_lookup_wheel_about(table, about) != 0) return 2;
     show(60, about);
+    if (faststrip_lookup_wheel_z_errors(table, about) != 0) return 6;
+    show(12, about);
     fill();
     for (int order = 1; order <= 3; order += 2) {
         printf("%d\n", faststrip_lookup_wheel_contacts(table, (enum faststrip_lookup_order)order,
@@ -77,10 +117,16 @@ int main(void)
         != FASTSTRIP_BAD_ARGUMENT) return 4;
     if (faststrip_lookup_wheel_forces(table, FASTSTRIP_LINEAR, 1, NULL, states[0], forces[0], NULL,
                                       NULL) != FASTSTRIP_BAD_ARGUMENT) return 5;
-    return faststrip_lookup_free(&table);
+    faststrip_wheelset *wheelset = made();
+    if (faststrip_wheelset_use_lookup(wheelset, table, FASTSTRIP_LINEAR) != 0) return 7;
+    solve(wheelset, 0.7);
+    solve(wheelset, 5.0);
+    faststrip_lookup_free(&table);
+    printf("%d\n", solve_at(wheelset, 0.7));
+    return faststrip_wheelset_free(&wheelset);
 }
 """
-ALLOCATIONS = "#include <faststrip.h>\n" + SHOW + r"""
+ALLOCATIONS = "#include <faststrip.h>\n" + SHOW + WHEELSET + r"""
 int main(void)
 {
     faststrip_lookup *table = opened("wheel.fslt");
@@ -97,6 +143,12 @@ int main(void)
         before = allocations() - before;
         printf("%d %ld\n", status, before);
     }
+    faststrip_wheelset *wheelset = made();
+    int used = faststrip_wheelset_use_lookup(wheelset, table, FASTSTRIP_CUBIC);
+    long before = allocations();
+    used |= solve_at(wheelset, 0.7) | solve_at(wheelset, 5.0);
+    printf("%d %ld\n", used, allocations() - before);
+    faststrip_wheelset_free(&wheelset);
     return faststrip_lookup_free(&table);
 }
 """
@@ -108,6 +160,8 @@ BY_F77 = r"""
       INTEGER IWORK(8), ISTAT(NS), ISLOT(NS), I, J, K, N, IORDER, INFO
       DOUBLE PRECISION PLACE(3, NP), CONTAC(14, 1, NP), DCON(14, 1, 3, NP), STATE(7, NS)
       DOUBLE PRECISION FORCE(3, NS), DJAC(3, 7, NS), ABOUT(60)
+      INTEGER IOPT(9), NPROF(4), IWHEEL(8), IDMND(4), NCONT
+      DOUBLE PRECISION PAR(9), SETUP(9), NONE(1), POS(11), DMND(4), CONT(47, 20), WRES(27)
       OPEN (10, FILE='wheel.fslt', ACCESS='DIRECT', RECL=1, FORM='UNFORMATTED', STATUS='OLD')
       N = 0
    10 CONTINUE
@@ -121,6 +175,9 @@ BY_F77 = r"""
       CALL FSLWIN(IWORK, ABOUT, INFO)
       IF (INFO .NE. 0) STOP 2
       WRITE (*, 100) ABOUT
+      CALL FSLWZE(IWORK, ABOUT, INFO)
+      IF (INFO .NE. 0) STOP 6
+      WRITE (*, 100) (ABOUT(I), I = 1, 12)
       DO 30 I = 1, NP
         PLACE(1, I) = -2.0D0 + 0.7D0*(I - 1)
         PLACE(2, I) = 0.0D0
@@ -155,8 +212,44 @@ BY_F77 = r"""
    70 CONTINUE
       CALL FSLINF(IWORK, ABOUT, INFO)
       IF (INFO .NE. 100) STOP 3
+      CALL FSDFLT(IOPT, PAR)
+      CALL FSWDFT(SETUP)
+      SETUP(8) = 0.025D0
+      NPROF(1) = -1
+      NPROF(2) = 0
+      NPROF(3) = -2
+      NPROF(4) = 0
+      NONE(1) = 0.0D0
+      CALL FSWNEW(IOPT, PAR, SETUP, NPROF, NONE, NONE, IWHEEL, 8, INFO)
+      IF (INFO .NE. 0) STOP 7
+      CALL FSWLKP(IWHEEL, IWORK, 1, INFO)
+      IF (INFO .NE. 0) STOP 8
+      DO 80 I = 1, 11
+        POS(I) = 0.0D0
+   80 CONTINUE
+      POS(5) = 2.0D4
+      IDMND(1) = 1
+      IDMND(2) = 0
+      IDMND(3) = 0
+      IDMND(4) = 0
+      DMND(1) = 8.0D4
+      DMND(2) = 8.0D4
+      DMND(3) = 0.0D0
+      DMND(4) = 0.0D0
+      DO 90 I = 1, 2
+        POS(1) = 0.7D0
+        IF (I .EQ. 2) POS(1) = 5.0D0
+        CALL FSWSLV(IWHEEL, POS, IDMND, DMND, 20, NCONT, CONT, WRES, INFO)
+        IF (INFO .NE. 0) STOP 9
+        WRITE (*, '(I0, 1X, I0)') NINT(WRES(26)), NINT(WRES(27))
+        WRITE (*, 100) WRES(1), WRES(2), (WRES(J), J = 4, 9), (WRES(J), J = 16, 21)
+   90 CONTINUE
       CALL FSLFRE(IWORK, INFO)
       IF (INFO .NE. 0) STOP 4
+      POS(1) = 0.7D0
+      CALL FSWSLV(IWHEEL, POS, IDMND, DMND, 20, NCONT, CONT, WRES, INFO)
+      WRITE (*, '(I0)') INFO
+      CALL FSWFRE(IWHEEL, INFO)
   100 FORMAT (60(Z16.16, :, 1X))
       END
 """
@@ -166,6 +259,18 @@ def numbers(line):
     return list(map(number, line.split()))
 
 
+def without_z_errors(content):
+    """A file as it was before z was in the promise."""
+    head = list(struct.unpack_from("<12i", content, 8))
+    numbers_about = np.frombuffer(content, "<f8", head[6], 56)
+    errors = numbers_about[5:].reshape(2, 2, 3, 5)[..., :4]
+    behind = content[56 + 8 * head[6]:-4]
+    head[6] = 5 + errors.size
+    older = content[:8] + struct.pack("<12i", *head) + numbers_about[:5].tobytes() \
+        + errors.tobytes() + behind
+    return older + struct.pack("<I", zlib.crc32(older))
+
+
 class WheelFaces(HostTest):
     @classmethod
     def setUpClass(cls):
@@ -173,7 +278,7 @@ class WheelFaces(HostTest):
         cls.package = cls.import_package()
         (cls.folder / "case.nml").write_text(CASE, encoding="utf-8")
         subprocess.run([str(cls.installed.prefix / "bin" / "faststrip"), "lookup", "wheel",
-                        "case.nml", "-o", "wheel.fslt", "--error", "0.3", "--y", "-2:2", "--tests",
+                        "case.nml", "-o", "wheel.fslt", "--error", "0.03", "--y", "-2:2", "--tests",
                         "299"], cwd=cls.folder, check=True, stdin=subprocess.DEVNULL)
         cls.table = cls.package.WheelLookup(cls.folder / "wheel.fslt")
         (cls.folder / "by_c.c").write_text(BY_C, encoding="utf-8")
@@ -185,15 +290,16 @@ class WheelFaces(HostTest):
         self.shell("gfortran -std=legacy -ffixed-line-length-100 -O1 by_f77.f"
                    " $(pkg-config --libs faststrip) -o by_f77")
         self.assertEqual(self.shell("./by_f77").splitlines(), self.lines)
-        self.assertEqual((self.lines.count("100"), self.lines.count("109")), (2 + 2, 2))
+        self.assertEqual((self.lines.count("100"), self.lines.count("109")), (2 + 2 + 1, 2))
 
     def test_python_has_them(self):
         about = numbers(self.lines[0])
         table = self.table
         self.assertEqual([table.nu, table.g, table.promised, *table.tested, table.slots, *table.y,
                           *table.yaw, *table.load], about[:12])
-        self.assertEqual(table.errors.ravel().tolist(), about[12:])
-        at = 1
+        self.assertEqual(table.errors[..., :4].ravel().tolist(), about[12:])
+        self.assertEqual(table.errors[..., 4].ravel().tolist(), numbers(self.lines[1]))
+        at = 2
         i, k = np.arange(PLACES), np.arange(STATES)
         slot, y = np.ones(STATES, dtype=int), -1.9 + 0.05 * k
         slot[3], y[4] = 9, 77.0
@@ -219,12 +325,115 @@ class WheelFaces(HostTest):
                 else:
                     self.assertTrue(np.isnan(found.forces[state]).all())
                 at += 3
-        self.assertEqual(at, len(self.lines))
+        wheelset = self.package.Wheelset(estimate=False)
+        wheelset.use_lookup(table, order="linear")
+        for y in (0.7, 5.0):
+            solved = wheelset.solve(y=y, speed=2e4, load=8e4, roll=0.0)
+            self.assertEqual([*solved.z, *solved.force.ravel(), *solved.moment.ravel()],
+                             numbers(self.lines[at + 1]))
+            self.assertEqual(list(solved.n_solutions), list(map(int, self.lines[at].split())))
+            at += 2
+        self.assertEqual(self.lines[at:], ["100"])
+
+    def test_a_wheelset_by_its_table_is_that_by_strips(self):
+        package, table = self.package, self.table
+        strips, wheelset = (package.Wheelset(estimate=False) for _ in range(2))
+        wheelset.use_lookup(table)
+        moved = package.RailState(y=0.3, z=0.4), package.RailState(y=0.3, z=0.4)
+        for i in range(12):
+            # Between the nodes; forwards, backwards, on rails that lie elsewhere.
+            state = {"y": -1.9 + 0.317 * i, "y_rate": 60.0 - 11.0 * i, "yaw_rate": 0.02 - 0.003 * i,
+                     "speed": 2e4 if i % 3 else -2e4, "roll": 0.0}
+            if i % 4 == 3:
+                state |= {"right_rail": moved[0], "left_rail": moved[1]}
+            load = 5e4 + 5.3e3 * i, 11e4 - 4.9e3 * i
+            there, here = (of.solve(load=load, **state) for of in (strips, wheelset))
+            self.assertEqual(here.n_solutions, (0, 0))
+            self.assertTrue(min(there.n_solutions) > 0)
+            slip = 0.3 * np.array(load)[:, None]
+            self.assertLess((abs(here.force - there.force) / slip).max(), table.promised)
+            np.testing.assert_allclose(here.force[:, 2], load, rtol=1e-8)
+            # z by the load that it makes; moments by the lever of a wheel.
+            self.assertLess(abs(np.array(here.z) - there.z).max(), table.promised * 0.06)
+            self.assertLess(abs(here.moment - there.moment).max(),
+                            table.promised * slip.max() * 760.0)
+            self.assertEqual([c.side for c in here.contacts], [c.side for c in there.contacts])
+            for one, other in zip(here.contacts, there.contacts):
+                self.assertAlmostEqual(one.contact_angle, other.contact_angle, delta=2e-3)
+                self.assertAlmostEqual(one.load, other.load, delta=0.01 * other.load)
+                self.assertAlmostEqual(one.penetration, other.penetration, delta=0.004)
+                self.assertAlmostEqual(one.pmax, other.pmax, delta=0.1 * other.pmax)
+                self.assertAlmostEqual(one.friction_power, other.friction_power,
+                                       delta=table.promised * 0.3 * other.load * 1e-2)
+            # From z to the load.
+            place = {**state, "z": float(there.z[0]), "wheels": "right"}
+            there, here = (of.solve(**place) for of in (strips, wheelset))
+            self.assertEqual(here.n_solutions, (0, 0))
+            self.assertAlmostEqual(here.force[0, 2] / there.force[0, 2], 1.0, delta=table.promised)
+
+    def test_roll_moves_a_wheel_as_strips_have_it(self):
+        strips, wheelset = (self.package.Wheelset(estimate=False) for _ in range(2))
+        wheelset.use_lookup(self.table)
+        for y in (-1.37, 0.41, 1.83):
+            there, here = (of.solve(y=y, speed=2e4, load=8e4) for of in (strips, wheelset))
+            self.assertEqual(here.n_solutions, (0, 0))
+            self.assertGreater(abs(there.roll), 1e-5)
+            self.assertAlmostEqual(here.roll, there.roll, delta=2e-7)
+            self.assertLess(abs(here.force - there.force).max(), 0.03 * 0.3 * 8e4)
+            self.assertAlmostEqual(here.z[0], there.z[0], delta=1e-3)
+        rolled = self.package.RailState(roll=3e-4)
+        there, here = (of.solve(y=0.4, speed=2e4, load=8e4, roll=3e-4, right_rail=rolled,
+                                left_rail=rolled) for of in (strips, wheelset))
+        self.assertLess(abs(np.array(here.z) - there.z).max(), 1e-3)
+        self.assertAlmostEqual(here.contacts[0].contact_angle, there.contacts[0].contact_angle,
+                               delta=5e-4)
+
+    def test_beyond_the_table_strips_answer(self):
+        strips, wheelset = (self.package.Wheelset() for _ in range(2))
+        wheelset.use_lookup(self.table)
+        for state in ({"y": 2.3, "load": 8e4}, {"y": 0.5, "load": 1.5e5}, {"y": 0.5, "load": 3e4},
+                      {"y": 0.5, "yaw": 1e-3, "load": 8e4}, {"y": -2.5, "z": 0.2},
+                      {"y": 0.0, "z": -3.0}):
+            here, there = (of.solve(speed=2e4, roll=0.0, **state) for of in (wheelset, strips))
+            self.assertEqual(here, there)
+        mixed = wheelset.solve(y=0.5, speed=2e4, roll=0.0, load=(8e4, 3e4))
+        self.assertEqual(mixed.n_solutions[0], 0)
+        self.assertGreater(mixed.n_solutions[1], 0)
+        self.assertIsNone(mixed.contacts[0].est_err_fx)
+        self.assertIsNotNone(mixed.contacts[1].est_err_fx)
+        wheelset.use_lookup(None)
+        self.assertEqual(wheelset.solve(y=0.5, speed=2e4, axle_load=16e4),
+                         strips.solve(y=0.5, speed=2e4, axle_load=16e4))
+
+    def test_a_table_that_is_not_its_own_is_refused(self):
+        package, table = self.package, self.table
+        content = bytearray((self.folder / "wheel.fslt").read_bytes())
+        older = package.WheelLookup(without_z_errors(bytes(content)))
+        self.assertTrue(np.isnan(older.errors[..., 4]).all())
+        np.testing.assert_array_equal(older.errors[..., :4], table.errors[..., :4])
+        good = package.Wheelset()
+        good.use_lookup(table)
+        good.solve(y=0.3, load=8e4, speed=2e4, roll=0.0)
+        self.all_refused(
+            ("of another wheel or rail: at y",
+             lambda: package.Wheelset("cone20").use_lookup(table)),
+            ("of another wheel or rail: at y",
+             lambda: package.Wheelset(inclination=0.05).use_lookup(table)),
+            ("that are alike", lambda: package.Wheelset(radius_left=459.9).use_lookup(table)),
+            ("of other materials: G 82000", lambda: package.Wheelset(
+                material=package.Material(e_wheel=2e5)).use_lookup(table)),
+            ("needs strips", lambda: package.Wheelset(normal="auto").use_lookup(table)),
+            ("of an older version", lambda: good.use_lookup(older)),
+            ("order must be linear or cubic", lambda: good.use_lookup(table, order="square")),
+            ("a WheelLookup or None", lambda: good.use_lookup(1)),
+            ("no strips, elements or wear", lambda: good.strips(0)),
+            ("no derivatives", lambda: good.solve(y=0.3, load=8e4, speed=2e4, roll=0.0,
+                                                  derivatives=True)))
 
     def test_looking_up_allocates_nothing(self):
         self.write("counted.c", COUNTER + ALLOCATIONS)
         self.shell("gcc -O1 counted.c $(pkg-config --cflags --libs faststrip) -o counted")
-        self.assertEqual(self.shell("./counted"), "0 0\n0 0\n")
+        self.assertEqual(self.shell("./counted"), "0 0\n0 0\n0 0\n")
 
     def test_what_is_none_is_refused(self):
         package, table, creepage = self.package, self.table, (1e-3, 0.0, 0.0)

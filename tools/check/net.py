@@ -58,7 +58,7 @@ RUNS = (
     ("curves", "faststrip table --curves curves.csv"),
     ("lookup", "faststrip lookup make -o hertz.fslt --error 0.2 --tests 299 --threads 2"),
     ("lookup_wheel", "faststrip lookup wheel {example}/wheelset_states.nml -o wheel.fslt --y 0:2 "
-                     "--load 60000:80000 --error 0.3 --least-step 0.2 --tests 299"),
+                     "--load 60000:80000 --error 0.2 --least-step 0.2 --tests 299"),
 )
 EXAMPLE = ("faststrip contact {case} -o {name}.csv --strips {name}_strips.csv --fields "
            "{name}_fields.csv --gap {name}_gap.csv")

@@ -54,8 +54,8 @@ contains
             // 'load_N,mu,cksi,ceta,cphi_rad_per_mm,slot; the numbers of the contact are added,' &
             // ' too.' // new_line('a')
         command%options = [ &
-            option_t('--order', 'NAME', 'interpolation: linear or cubic (default linear; of a wheel''s' &
-                     // ' table cubic)'), &
+            option_t('--order', 'NAME', 'interpolation: linear or cubic (default linear; of the' &
+                     // new_line('a') // 'table of a wheel cubic)'), &
             option_t('--jacobian', '', 'add the derivatives, as dFx_dcksi, in units of both'), &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.)]
         call parse_command(command, 2)

@@ -37,8 +37,8 @@ module faststrip_command_lookup_make
     ! Tuned [1]: 99th percentile of the errors where none is asked for, of ellipses and of wheels.
     ! Origin: chosen.
     real(wp), parameter :: usual_error = 0.01_wp, usual_wheel_error = 0.03_wp
-    ! Tuned [1]: the largest that may be asked for. Origin: chosen: Hertz' ellipse with Polach's law
-    ! comes as near without a table; who says 0.5 or 1 means per cent.
+    ! Tuned [1]: the largest that may be asked for. Origin: chosen: FASTSIM on Hertz' ellipse is
+    ! nearer on the average; who says 0.5 or 1 means per cent.
     real(wp), parameter :: most_error = 0.2_wp
     ! Tuned [mm]: the shortest cell along y where none is asked for. Origin: chosen.
     real(wp), parameter :: usual_step = 0.02_wp

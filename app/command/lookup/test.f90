@@ -188,7 +188,8 @@ contains
         call begin_table(writer, path)
         if (is_wheel) then
             call put_comment(writer, 'sums over the contacts of a wheel: creep forces in the ' &
-                             // 'track, their moment, the lateral part of the normal forces; the height')
+                             // 'track, their moment, the lateral part of the normal ' &
+                             // 'forces; the height')
             call put_header(writer, [character(len=16) :: wheel_columns, 'change', 'contacts', &
                                      sums, (sums(k)(:index(sums(k), '_', back=.true.)) &
                                             // 'linear', k=1, size(sums)), &

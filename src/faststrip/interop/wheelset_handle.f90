@@ -207,7 +207,8 @@ contains
         lookup => null()
         if (number /= 0) call find_lookup(number, lookup, handle%status%code)
         if (number /= 0 .and. .not. associated(lookup)) then
-            call set_status(handle%status, st_bad_argument, 'no lookup table, or one that was freed')
+            call set_status(handle%status, st_bad_argument, &
+                            'no lookup table, or one that was freed')
             return
         end if
         call hold_environment(environment)

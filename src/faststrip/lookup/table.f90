@@ -2,12 +2,12 @@
 module faststrip_lookup_table
     use, intrinsic :: iso_fortran_env, only: real32
     use faststrip_base_kinds, only: wp
-    use faststrip_lookup_axis, only: lookup_axis_t
+    use faststrip_lookup_axis, only: lookup_axis_t, make_axis
     implicit none
     private
 
     public :: lookup_t, wheel_part_t, lookup_kind_hertz, lookup_kind_wheel
-    public :: n_contact_numbers, most_slots, n_wheel_errors
+    public :: n_contact_numbers, most_slots, n_wheel_errors, rise_power, set_rise
     public :: at_load, at_angle, at_rail_y, at_rail_z, at_ahead, at_wheel_y, at_radius, at_height, &
               at_area, at_pmax, at_length, at_creep, at_spin
 
@@ -34,11 +34,16 @@ module faststrip_lookup_table
     !> Given: numbers of the file format.
     integer, parameter :: n_wheel_errors = 5
 
+    !> Power of the load that penetration grows with, and so the height.
+    !> Given: Hertz' law.
+    real(wp), parameter :: rise_power = 2.0_wp/3.0_wp
+
     !> What the table of a wheel on a rail has beside the faces.
     type :: wheel_part_t
         type(lookup_axis_t) :: y     !! of the wheelset over the rail, mm
         type(lookup_axis_t) :: yaw   !! rad; of one node where it does not vary
         type(lookup_axis_t) :: load  !! vertical part of the normal forces, N
+        type(lookup_axis_t) :: rise  !! its nodes to the power 2/3: between them z has its place
         real(wp) :: shear = 0.0_wp   !! modulus of both bodies, MPa
         integer :: slots = 0         !! contacts that there can be
         integer :: sets = 0          !! sets of faces, two to each contact that was solved
@@ -69,4 +74,16 @@ module faststrip_lookup_table
         type(wheel_part_t) :: wheel               !! of a wheel on a rail; then without `shape`
         character(len=:), allocatable :: text     !! how it was made, lines of words
     end type lookup_t
+
+contains
+
+    !> The axis along which z is interpolated between loads.
+    pure subroutine set_rise(wheel)
+        type(wheel_part_t), intent(inout) :: wheel
+            !! with its loads; without nodes where a load is not above 0
+
+        call make_axis([real(wp) ::], wheel%rise)
+        if (wheel%load%n < 1) return
+        if (wheel%load%x(1) > 0.0_wp) call make_axis(wheel%load%x**rise_power, wheel%rise)
+    end subroutine set_rise
 end module faststrip_lookup_table

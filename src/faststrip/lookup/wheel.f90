@@ -8,8 +8,8 @@
 !> (`faststrip_lookup_faces`), each once for the patch as it is and once for its mirror image: what
 !> a patch that is not symmetric does with x1 < 0 < x3 is what its mirror image does with x1 > 0.
 !>
-!> Along y, yaw and load the contacts' numbers are interpolated by the order asked for, Phi always
-!> linearly; along the creepages Phi by the order.
+!> Along y, yaw and load the contacts' numbers are interpolated by the order asked for, z over the
+!> load to the power 2/3, Phi always linearly; along the creepages Phi by the order.
 module faststrip_lookup_wheel
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
@@ -19,7 +19,7 @@ module faststrip_lookup_wheel
     use faststrip_lookup_faces, only: faces_cell_t, find_faces_cell, sum_faces, finish_faces, &
                                       n_forces, lookup_linear, lookup_cubic
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, at_load, &
-                                      at_height, at_area, at_length, at_creep, at_spin
+                                      at_height, at_area, at_length, at_creep, at_spin, rise_power
     implicit none
     private
 
@@ -72,7 +72,7 @@ contains
         real(wp), intent(out), optional :: slopes(:, :, :)
             !! derivatives, numbers, slots, by y, yaw, load
 
-        type(place_cell_t) :: cell
+        type(place_cell_t) :: cell, rising
         real(wp) :: numbers(n_contact_numbers, 0:n_wheel_place)
         integer :: slot, k
 
@@ -86,9 +86,11 @@ contains
             return
         end if
         call find_place(lookup, order, place, cell)
+        call find_place(lookup, order, place, rising, lookup%wheel%rise)
         do slot = 1, lookup%wheel%slots
             call sum_numbers(lookup, cell, slot, 1, n_contact_numbers, numbers)
             if (numbers(at_load, 0) < least_load) cycle
+            call sum_numbers(lookup, rising, slot, at_height, at_height, numbers)
             call restore_powers(numbers)
             contacts(:, slot) = numbers(:, 0)
             if (.not. present(slopes)) cycle
@@ -152,18 +154,18 @@ contains
         real(wp), intent(out) :: load        !! N; 0 if it is not there
         logical, intent(out) :: is_there     !! are y, yaw and this load within the table?
 
-        type(stencil_t) :: in_y, in_yaw, in_load
-        real(wp) :: low, high, miss, heights(4)
+        type(stencil_t) :: in_y, in_yaw, in_rise
+        real(wp) :: low, high, miss, rise, heights(4)
         integer :: width(n_wheel_place), first, last, k, i
 
         load = 0.0_wp
-        associate (wheel => lookup%wheel, loads => lookup%wheel%load)
+        associate (wheel => lookup%wheel, axis => lookup%wheel%rise)
             is_there = is_within(wheel%y, y) .and. is_within(wheel%yaw, yaw)
             if (.not. is_there) return
             call find_along(wheel%y, order, y, in_y, width(1))
             call find_along(wheel%yaw, order, yaw, in_yaw, width(2))
             first = 1
-            last = loads%n
+            last = axis%n
             is_there = height_of(first) <= z .and. z <= height_of(last)
             if (.not. is_there) return
             do while (last - first > 1)
@@ -174,27 +176,28 @@ contains
                     last = k
                 end if
             end do
-            low = loads%x(first)
-            high = loads%x(last)
-            load = 0.5_wp*(low + high)
-            call find_along(loads, order, load, in_load, width(3))
+            low = axis%x(first)
+            high = axis%x(last)
+            rise = 0.5_wp*(low + high)
+            call find_along(axis, order, rise, in_rise, width(3))
             do k = 1, width(3)
-                heights(k) = height_of(in_load%first + k - 1)
+                heights(k) = height_of(in_rise%first + k - 1)
             end do
             do i = 1, most_tries
-                miss = dot_product(in_load%w(:width(3)), heights(:width(3))) - z
+                miss = dot_product(in_rise%w(:width(3)), heights(:width(3))) - z
                 if (miss > 0.0_wp) then
-                    high = load
+                    high = rise
                 else
-                    low = load
+                    low = rise
                 end if
-                miss = miss/dot_product(in_load%dw(:width(3)), heights(:width(3)))
-                load = load - miss
+                miss = miss/dot_product(in_rise%dw(:width(3)), heights(:width(3)))
+                rise = rise - miss
                 ! A step that leads out of the bracket, or nowhere.
-                if (.not. (load >= low .and. load <= high)) load = 0.5_wp*(low + high)
-                if (abs(miss) <= near_load*load .or. high - low <= near_load*load) return
-                call find_along(loads, order, min(load, loads%x(last)), in_load, width(3))
+                if (.not. (rise >= low .and. rise <= high)) rise = 0.5_wp*(low + high)
+                if (abs(miss) <= near_load*rise .or. high - low <= near_load*rise) exit
+                call find_along(axis, order, min(rise, axis%x(last)), in_rise, width(3))
             end do
+            load = min(max(rise**(1.0_wp/rise_power), wheel%load%x(1)), wheel%load%x(wheel%load%n))
         end associate
 
     contains
@@ -232,11 +235,12 @@ contains
     end function contacts_change
 
     !> The nodes about a place, which is within the table.
-    pure subroutine find_place(lookup, order, place, cell)
+    pure subroutine find_place(lookup, order, place, cell, rise)
         type(lookup_t), intent(in) :: lookup
         integer, intent(in) :: order
         real(wp), intent(in) :: place(n_wheel_place)
         type(place_cell_t), intent(inout) :: cell
+        type(lookup_axis_t), intent(in), optional :: rise ! in the place of that of the load
 
         type(stencil_t) :: in_y, in_yaw, in_load
         real(wp) :: both, by_yaw, by_load
@@ -244,7 +248,12 @@ contains
 
         call find_along(lookup%wheel%y, order, place(1), in_y, width(1))
         call find_along(lookup%wheel%yaw, order, place(2), in_yaw, width(2))
-        call find_along(lookup%wheel%load, order, place(3), in_load, width(3))
+        if (present(rise)) then
+            call find_along(rise, order, rise_of(lookup, place(3)), in_load, width(3))
+            in_load%dw = in_load%dw*rise_power*rise_of(lookup, place(3))/place(3)
+        else
+            call find_along(lookup%wheel%load, order, place(3), in_load, width(3))
+        end if
         cell%n = 0
         do k = 1, width(3)
             do j = 1, width(2)
@@ -265,6 +274,16 @@ contains
             end do
         end do
     end subroutine find_place
+
+    !> The load to the power that z grows with, within its axis.
+    pure real(wp) function rise_of(lookup, load)
+        type(lookup_t), intent(in) :: lookup
+        real(wp), intent(in) :: load
+
+        associate (rise => lookup%wheel%rise)
+            rise_of = min(max(load**rise_power, rise%x(1)), rise%x(rise%n))
+        end associate
+    end function rise_of
 
     !> Weights of nodes along one axis, and how many.
     pure subroutine find_along(axis, order, x, stencil, width)

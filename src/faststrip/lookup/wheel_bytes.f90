@@ -8,7 +8,7 @@ module faststrip_lookup_wheel_bytes
     use faststrip_lookup_axis, only: lookup_axis_t, least_nodes, most_nodes
     use faststrip_lookup_faces, only: n_faces, n_forces
     use faststrip_lookup_table, only: lookup_t, n_contact_numbers, most_slots, n_wheel_errors, &
-                                      at_load, at_radius, at_area
+                                      at_load, at_radius, at_area, set_rise
     use faststrip_lookup_words, only: take_axis, take_doubles, take_values, take_text, word_at, &
                                       put_word, put_doubles, of_double, of_word, of_header, &
                                       n_counts
@@ -20,7 +20,7 @@ module faststrip_lookup_wheel_bytes
     ! Whole numbers behind those of the header: nodes of yaw and load, slots, contacts with faces.
     integer, parameter :: n_more = 4
     ! Numbers about the table: nu, G, what was promised, two counts of tests; mean, 99th percentile
-    ! and worst of each error, by two orders, of two kinds of states. Older files have no error of z.
+    ! and worst of each error, by two orders, of two kinds of states. Older files have none of z.
     integer, parameter :: n_before = 5, of_error = 12, least_errors = n_wheel_errors - 1
     ! Tuned [bytes]: the largest table. Origin: safeguard: its size fits 64 bits.
     real(wp), parameter :: most_bytes = 1.0e15_wp
@@ -117,6 +117,7 @@ contains
             call take_axis(bytes, at, counts(6), wheel%y)
             call take_axis(bytes, at, more(1), wheel%yaw)
             call take_axis(bytes, at, more(2), wheel%load)
+            call set_rise(wheel)
             wheel%slots = more(3)
             wheel%sets = more(4)
             allocate (wheel%contacts(n_contact_numbers, wheel%slots, nodes), stat=failure)
@@ -171,6 +172,7 @@ contains
             else if (any(parameters < 0.0_wp) .or. any(parameters > 1.0e9_wp) .or. &
                      parameters(1) >= 0.5_wp .or. & ! Given: Poisson's ratio
                      .not. wheel%shear > 0.0_wp .or. .not. wheel%load%x(1) > 0.0_wp .or. &
+                     wheel%rise%n < 1 .or. &
                      any(abs(wheel%contacts) > 1.0e12_wp) .or. &
                      any(wheel%contacts(at_load, :, :) < 0.0_wp) .or. &
                      any(wheel%contacts(at_area:, :, :) <= 0.0_wp) .or. &

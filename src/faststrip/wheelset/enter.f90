@@ -20,7 +20,7 @@ module faststrip_wheelset_enter
     public :: enter_lookup
 
     ! Tuned [1]: of the load, by which a table may be off at its own nodes: by other numbers of
-    ! strips. Origin: chosen: a height that is 2 um off.
+    ! strips. Origin: chosen: a height that is 1.4 um off.
     real(wp), parameter :: near_enough = 0.03_wp
     ! Tuned [1]: of the moduli, by which materials may differ. Origin: rounding.
     real(wp), parameter :: same_material = 1.0e4_wp*rounding

@@ -14,7 +14,8 @@ module faststrip_interop_c_wheelset
     use faststrip_interop_solution, only: strip_count
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, free_wheelset, find_wheelset, &
                                                  take_wheels, wheelset_solve, contact_place, &
-                                                 find_contact, contact_mirror, copy_wheelset, use_lookup, &
+                                                 find_contact, contact_mirror, copy_wheelset, &
+                                                 use_lookup, &
                                                  pitch_rate_of
     use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
                                               source_name_length, default_dimensions, new_wheelset
