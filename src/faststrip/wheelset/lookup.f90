@@ -29,9 +29,10 @@ module faststrip_wheelset_lookup
 
     ! Tuned [passes]: to find the place of a wheel with roll. Origin: the third changes nothing.
     integer, parameter :: roll_passes = 3
-    ! Tuned [1, steps]: vertical force that is found, of the load; how often it is tried. Origin:
-    ! far below what tables miss; three to five are taken.
+    ! Tuned [1]: vertical force that is found, of the load. Origin: chosen: far below what tables
+    ! miss.
     real(wp), parameter :: near_enough = 1.0e-9_wp
+    ! Tuned [steps]: how often it is tried. Origin: safeguard: three to five are taken.
     integer, parameter :: most_tries = 30
 
 contains
