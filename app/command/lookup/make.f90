@@ -230,8 +230,8 @@ contains
         family%words = version_text() // new_line('a') // words // new_line('a')
         family%progress => progress
         family%note => note
-        error = option_number(command, '--error', default_error, above=0)
-        if (error > most_error) &
+        error = option_number(command, '--error', default_error)
+        if (.not. (error > 0.0_wp .and. error <= most_error)) &
             call refuse_value(command, '--error', 'a fraction of mu N above 0 to 0.2, 0.005 for ' &
                               // 'half a per cent')
         tests = option_integer(command, '--tests', usual, most=10000000, &

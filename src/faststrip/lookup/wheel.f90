@@ -23,7 +23,7 @@ module faststrip_lookup_wheel
     implicit none
     private
 
-    public :: look_up_contacts, look_up_wheel, load_at_height, contacts_change
+    public :: look_up_contacts, look_up_wheel, load_at_height, contacts_change, is_in_table
     public :: n_wheel_place, n_wheel_state
 
     !> Numbers of a place: y (mm), yaw (rad), load (N). Of a state: those, mu, cksi, ceta, cphi
@@ -233,6 +233,16 @@ contains
             change = change .or. (there > 0 .and. there < cell%n)
         end do
     end function contacts_change
+
+    !> Is a place within the ends of a table?
+    pure logical function is_in_table(lookup, place)
+        type(lookup_t), intent(in) :: lookup         !! of a wheel
+        real(wp), intent(in) :: place(n_wheel_place) !! y, yaw, load
+
+        is_in_table = is_within(lookup%wheel%y, place(1)) .and. &
+                      is_within(lookup%wheel%yaw, place(2)) .and. &
+                      is_within(lookup%wheel%load, place(3))
+    end function is_in_table
 
     !> The nodes about a place, which is within the table.
     pure subroutine find_place(lookup, order, place, cell, rise)

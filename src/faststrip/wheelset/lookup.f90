@@ -18,7 +18,7 @@ module faststrip_wheelset_lookup
                                       at_rail_y, at_rail_z, at_ahead, at_wheel_y, at_radius, &
                                       at_height, at_area, at_pmax
     use faststrip_lookup_wheel, only: look_up_contacts, look_up_wheel, load_at_height, &
-                                      n_wheel_place
+                                      is_in_table, n_wheel_place
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_result_t, wheel_contact_t
     use faststrip_wheelset_wheel, only: find_motion, take_motion, place_on_wheel, &
                                         find_contact_force, add_contacts
@@ -117,9 +117,11 @@ contains
                 if (.not. by_load) call load_at_height(model%lookup, model%lookup_order, place(1), &
                                                        place(2), centre(2) + model%radius &
                                                        + moved(2), place(3), is_there)
-                if (is_there) call look_up_contacts(model%lookup, model%lookup_order, place, &
-                                                    contacts, status)
-                if (is_there) is_there = .not. is_error(status)
+                ! Not by a status: words would be allocated for it.
+                if (is_there) is_there = is_in_table(model%lookup, place)
+                if (.not. is_there) return
+                call look_up_contacts(model%lookup, model%lookup_order, place, contacts, status)
+                is_there = .not. is_error(status)
                 if (.not. is_there) return
                 main = maxloc(contacts(at_load, :), dim=1)
                 arm = [pair%y_line + contacts(at_wheel_y, main), contacts(at_radius, main)]
