@@ -363,7 +363,7 @@ class WheelFaces(HostTest):
                 self.assertAlmostEqual(one.load, other.load, delta=0.01 * other.load)
                 # At the place of contact, not where the overlap is deepest.
                 self.assertAlmostEqual(one.penetration, other.penetration,
-                                       delta=0.15 * other.penetration)
+                                       delta=0.2 * other.penetration)
                 self.assertAlmostEqual(one.pmax, other.pmax, delta=0.1 * other.pmax)
                 self.assertAlmostEqual(one.friction_power, other.friction_power,
                                        delta=table.promised * 0.3 * other.load * 1e-2)

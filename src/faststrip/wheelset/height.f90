@@ -60,7 +60,7 @@ contains
     end subroutine try_table
 
     !> One wheel at a height, by its table where that reaches, without estimates.
-    subroutine try_height(model, workspace, state, side, z, wheel, neighbour)
+    subroutine try_height(model, workspace, state, side, z, wheel, neighbour, by_strips)
         type(wheelset_model_t), intent(in) :: model            !! made
         type(wheelset_workspace_t), intent(inout) :: workspace !! with the outline of the state
         type(wheelset_state_t), intent(in) :: state            !! its z does not count, mm, rad
@@ -68,11 +68,12 @@ contains
         real(wp), intent(in) :: z                              !! of the wheelset's centre, mm
         type(wheel_result_t), intent(inout) :: wheel           !! as of a right wheel
         real(wp), intent(in), optional :: neighbour            !! as of `solve_wheel_at`
+        logical, intent(in), optional :: by_strips             !! present: is no table asked?
 
         logical :: is_there
 
         is_there = .false.
-        if (.not. present(neighbour)) &
+        if (.not. (present(neighbour) .or. present(by_strips))) &
             call try_table(model, workspace, state, side, z, wheel, is_there)
         if (is_there) return
         call solve_wheel_at(model, model%pair(side), workspace%wheel(side), &

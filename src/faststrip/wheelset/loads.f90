@@ -108,7 +108,8 @@ contains
                                   demand%bracket)
             end if
             do while (search%goes_on)
-                call try_height(model, workspace, state, side, touch + search%approach, wheel)
+                call try_height(model, workspace, state, side, touch + search%approach, wheel, &
+                                by_strips=.true.)
                 if (is_error(wheel%status)) exit
                 call take_force(search, wheel%force(3))
             end do
@@ -123,7 +124,8 @@ contains
         if (.not. is_found(search)) call name_jump(search, status)
         if (is_error(status)) return
         if (search%approach /= search%best) &
-            call try_height(model, workspace, state, side, touch + search%best, wheel)
+            call try_height(model, workspace, state, side, touch + search%best, wheel, &
+                            by_strips=.true.)
         workspace%wheel(side)%approach = search%best
         workspace%wheel(side)%slope = search%slope
         wheel%z = touch + search%best
