@@ -170,10 +170,10 @@ class LookupWheel(ProgramTest):
         self.assertEqual(len(states), 800)
         off = [abs(float(row["Fx_N"]) - float(row["Fx_linear"])) for row in fresh]
         self.assertGreater(max(off), 0.0)
-        # z by the load that it makes: over a twentieth of a millimetre or so.
+        # z by the load that it makes: over 0.05 mm on the tread, some 0.5 mm on the steep flange.
         miss = [abs(float(row["z_mm"]) - float(row["z_cubic"])) for row in fresh]
         told = float(rows[9]["mean"])
-        self.assertTrue(0.03 < sum(miss) / len(miss) / told < 0.1, (sum(miss), told))
+        self.assertTrue(0.05 < sum(miss) / len(miss) / told < 0.5, (sum(miss), told))
         lateral = [abs(float(row["N_y_N"]) - float(row["N_y_cubic"])) for row in fresh]
         self.assertLess(sum(lateral), 0.05 * sum(abs(float(row["N_y_N"])) for row in fresh))
 
