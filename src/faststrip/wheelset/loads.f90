@@ -14,7 +14,7 @@ module faststrip_wheelset_loads
     use faststrip_wheelset_roll, only: roll_search_t, next_roll
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheel_result_t, wheel_workspace_t, wheelset_workspace_t, &
-                                        side_right, side_left
+                                        path_t, side_right, side_left
     implicit none
     private
 
@@ -35,6 +35,7 @@ contains
         workspace%has_last = .false.
         call forget_strips(workspace%wheel)
         workspace%stiffness = 0.0_wp
+        workspace%path = path_t()
     end subroutine start_afresh
 
     elemental subroutine forget_strips(workspace)

@@ -27,6 +27,7 @@ module faststrip_wheelset_solve
     use faststrip_wheelset_guide, only: needs_guide, take_guide
     use faststrip_wheelset_height, only: set_outline, try_height, try_table
     use faststrip_wheelset_loads, only: start_afresh, solve_loads, solve_for_roll, name_jump
+    use faststrip_wheelset_predict, only: predict_heights, remember_heights
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &
@@ -178,6 +179,7 @@ contains
             prescribed%roll_is_free = .true.
         end if
         workspace%is_reversed = moving%speed < moving%pitch_rate*model%radius
+        call predict_heights(model, workspace, moving, prescribed)
         if (workspace%is_reversed) then
             call solve_checked(model, workspace, reversed_state(moving), prescribed, result, status)
             do side = side_right, side_left
@@ -187,6 +189,7 @@ contains
         else
             call solve_checked(model, workspace, moving, prescribed, result, status)
         end if
+        if (workspace%has_last) call remember_heights(model, workspace, moving, prescribed)
         call restore_environment(environment)
     end subroutine solve_wheelset
 

@@ -17,7 +17,7 @@ module faststrip_wheelset_types
     private
 
     public :: wheelset_model_t, wheelset_demand_t, wheel_contact_t, wheel_result_t
-    public :: wheelset_result_t, wheel_workspace_t, wheelset_workspace_t
+    public :: wheelset_result_t, wheel_workspace_t, wheelset_workspace_t, path_t
     public :: side_right, side_left, demand_position, demand_loads, demand_axle_load, demand_rest
     public :: most_contacts
 
@@ -142,12 +142,22 @@ module faststrip_wheelset_types
             !! is a height being looked for by strips, for another method to take?
     end type wheel_workspace_t
 
+    !> The last solutions for loads, and what changed between the last two.
+    type :: path_t
+        real(wp) :: place(4) = 0.0_wp  !! where, as lengths, mm
+        real(wp) :: motion(4) = 0.0_wp !! from the one before, mm
+        real(wp) :: found(3) = 0.0_wp
+            !! approaches over the load to 2/3, right and left, mm/N**(2/3); roll, rad
+        real(wp) :: change(3) = 0.0_wp !! of these
+    end type path_t
+
     !> Everything that solutions need beside the model; owned by the caller, one per thread.
     type :: wheelset_workspace_t
         type(wheel_workspace_t) :: wheel(2)   !! right, left
         type(wheelset_state_t) :: last_state  !! of the last solution, with its z and roll
         logical :: has_last = .false.         !! was there one?
         logical :: is_reversed = .false.      !! did it roll backwards?
+        type(path_t) :: path                  !! of the last solutions
         real(wp) :: stiffness(2, 2) = 0.0_wp
             !! of load and roll moment over z and roll at the last balance; 0: not known, N/mm, N,
             !! N, N mm
