@@ -15,7 +15,7 @@ NO_FMPY = ("" if importlib.util.find_spec("fmpy")
            else "fmpy not installed: tools/requirements-fmu.txt")
 KINDS = ("CoSimulation", "ModelExchange")
 MOTION = ("y", "z", "roll", "yaw", "speed", "y_rate", "z_rate", "roll_rate", "yaw_rate",
-          "pitch_rate", "curvature")
+          "pitch_rate", "pitch_rate_difference", "curvature")
 RAIL = ("y", "z", "roll", "y_rate", "z_rate", "roll_rate")
 SIDES = ("right", "left")
 FORCES = [f"wheel_{side}.{what}_{axis}" for side in SIDES for what in ("force", "moment")
@@ -25,6 +25,7 @@ CONTACTS = [f"wheel_{side}.{name}" for side in SIDES for name in (
         "load", "fx", "fy", "mz", "pmax", "cksi", "place_y", "angle")))]
 MEASURED = "worn_wheel.whl"
 STATE = {"y": 2.0, "roll": 2e-5, "yaw": 1.5e-3, "speed": 2e4, "y_rate": 4.0, "yaw_rate": 2e-3,
+         "pitch_rate_difference": 0.2,
          "rail_right.y": 0.3, "rail_left.z": -0.02, "rail_left.y_rate": 2.0}
 
 

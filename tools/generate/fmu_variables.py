@@ -24,6 +24,7 @@ UNITS = {
     "rad/mm": ({"rad": 1, "m": -1}, 1e3, 0.0),
     "s": ({"s": 1}, 1.0, 0.0),
     "mm/s": ({"m": 1, "s": -1}, 1e-3, 2e-2),
+    "s/mm": ({"s": 1, "m": -1}, 1e3, 0.0),
     "rad/s": ({"rad": 1, "s": -1}, 1.0, 4e-5),
     "N": ({"kg": 1, "m": 1, "s": -2}, 1.0, 0.0),
     "N.mm": ({"kg": 1, "m": 2, "s": -2}, 1e-3, 0.0),
@@ -41,6 +42,8 @@ gauge           setup.gauge          mm   distance of the gauge faces
 gauge_depth     setup.gauge_depth    mm   below the crown, where the gauge is measured
 rail_distance   setup.rail_distance  mm   of the origins of the rails' profiles; 0: by the gauge
 inclination     setup.inclination    -    tangent of both rails; 999: 1:40 for profiles by name
+damping         setup.damping        s/mm of contacts: share by which forces grow with the approach
+speed_floor     setup.speed_floor    mm/s of rolling speeds, below which friction grows with the slip
 mu              contact.mu           -    coefficient of friction
 normal          contact.normal       normal      normal method
 tangential      contact.tangential   tangential  tangential method
@@ -84,6 +87,7 @@ roll_rate       state.roll_rate      rad/s right wheel down
 yaw_rate        state.yaw_rate       rad/s relative to the track
 pitch_rate      state.pitch_rate     rad/s about the axle, negative ahead; 0: pure rolling
 curvature       state.curvature      1/mm  of the track, positive to the right
+pitch_rate_difference state.pitch_rate_difference rad/s left less right, of independent wheels
 """
 RAIL_INPUTS = """
 y               y                    mm    beside its place, to the right
