@@ -43,7 +43,7 @@ gauge_depth     setup.gauge_depth    mm   below the crown, where the gauge is me
 rail_distance   setup.rail_distance  mm   of the origins of the rails' profiles; 0: by the gauge
 inclination     setup.inclination    -    tangent of both rails; 999: 1:40 for profiles by name
 damping         setup.damping        s/mm of contacts: share by which forces grow with the approach
-speed_floor     setup.speed_floor    mm/s of rolling speeds, below which friction grows with the slip
+speed_floor     setup.speed_floor    mm/s of rolling speeds: below, friction grows with the slip
 mu              contact.mu           -    coefficient of friction
 normal          contact.normal       normal      normal method
 tangential      contact.tangential   tangential  tangential method
