@@ -68,7 +68,7 @@ contains
         real(wp), intent(in) :: z                              !! of the wheelset's centre, mm
         type(wheel_result_t), intent(inout) :: wheel           !! as of a right wheel
         real(wp), intent(in), optional :: neighbour            !! as of `solve_wheel_at`
-        logical, intent(in), optional :: by_strips             !! present: is no table asked?
+        logical, intent(in), optional :: by_strips             !! if present no table is asked
 
         logical :: is_there
 
