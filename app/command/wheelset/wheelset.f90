@@ -97,8 +97,8 @@ contains
             'roll_moment_Nmm; of each rail' // new_line('a') // 'beside its place ' // &
             'rail_right_y_mm,rail_right_z_mm,rail_right_roll_rad,rail_right_vy_mm_s,' // &
             new_line('a') // 'rail_right_vz_mm_s,rail_right_roll_rate_rad_s, the same with left' &
-            // '; of wheels that rotate independently' // new_line('a') // &
-            'pitch_rate_difference_rad_s, left less right), or the one of the group' // &
+            // '; of independent' // new_line('a') // &
+            'wheels pitch_rate_difference_rad_s, left less right), or the one of the group' // &
             new_line('a') // '&state. side is left, right ' // &
             '(Fz_N: vertical force of that wheel) or both (of the axle). An' // new_line('a') // &
             'empty roll_rad is found, an empty pitch_rate_rad_s is that of pure rolling; z_mm' // &

@@ -306,20 +306,25 @@ contains
     end subroutine contact_place
 
     !> The same of a number that may be none of a contact.
-    subroutine find_contact(handle, i, side, k)
+    subroutine find_contact(handle, i, side, k, first)
         type(wheelset_handle_t), intent(inout) :: handle !! its status tells: `st_bad_argument`
-        integer, intent(in) :: i                         !! from 1 on
+        integer, intent(in) :: i                         !! as the caller counts them
         integer, intent(out) :: side                     !! `side_right`, `side_left`
         integer, intent(out) :: k                        !! of its wheel
+        integer, intent(in), optional :: first           !! the caller's first number; absent: 1
 
+        integer :: at
+
+        at = i
+        if (present(first)) at = i - first + 1
         call clear_status(handle%status)
         side = side_right
         k = 0
-        if (i < 1 .or. i > contact_count(handle)) then
+        if (at < 1 .or. at > contact_count(handle)) then
             call set_status(handle%status, st_bad_argument, 'there is no such contact: ' &
                             // count_text(i))
         else
-            call contact_place(handle, i, side, k)
+            call contact_place(handle, at, side, k)
             if (handle%result%wheel(side)%solutions == 0) &
                 call set_status(handle%status, st_bad_argument, 'a contact by a lookup table has ' &
                                 // 'no strips, elements or wear')

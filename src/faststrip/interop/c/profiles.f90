@@ -97,7 +97,7 @@ contains
         call find_wheelset(wheelset, handle, code)
         if (code /= st_ok) return
         call check_arrays(capacity, [n, y, h, inv2r, inclination], handle%status)
-        if (.not. is_error(handle%status)) call find_contact(handle, i + 1, side, k)
+        if (.not. is_error(handle%status)) call find_contact(handle, i, side, k, first=0)
         if (.not. is_error(handle%status)) call write_gap()
         code = handle%status%code
 

@@ -72,7 +72,7 @@ contains
         call find_wheelset(wheelset, handle, code)
         if (code /= st_ok) return
         call clear_figures(figures)
-        call find_contact(handle, i + 1, side, k)
+        call find_contact(handle, i, side, k, first=0)
         if (.not. is_error(handle%status)) call read_law(law, figures, wanted, handle%status)
         if (.not. is_error(handle%status)) then
             associate (contact => handle%result%wheel(side)%contact(k))
@@ -126,7 +126,7 @@ contains
 
         call find_wheelset(wheelset, handle, code)
         if (code /= st_ok) return
-        call find_contact(handle, i + 1, side, k)
+        call find_contact(handle, i, side, k, first=0)
         if (.not. is_error(handle%status)) &
             call write_strip_wear(handle%workspace%wheel(side)%contact(k), &
                                   handle%result%wheel(side)%contact(k)%figures, &

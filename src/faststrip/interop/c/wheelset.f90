@@ -259,7 +259,7 @@ contains
 
         call find_wheelset(wheelset, handle, code)
         if (code /= st_ok) return
-        call find_contact(handle, i + 1, side, k)
+        call find_contact(handle, i, side, k, first=0)
         if (.not. is_error(handle%status)) &
             call write_strips(handle%workspace%wheel(side)%contact(k), &
                               contact_mirror(handle, side), capacity, n, &
@@ -287,7 +287,7 @@ contains
 
         call find_wheelset(wheelset, handle, code)
         if (code /= st_ok) return
-        call find_contact(handle, i + 1, side, k)
+        call find_contact(handle, i, side, k, first=0)
         if (.not. is_error(handle%status)) &
             call write_elements(handle%workspace%wheel(side)%contact(k), &
                                 contact_mirror(handle, side), capacity, n, &
