@@ -87,11 +87,11 @@ contains
     end subroutine look_up_at_load
 
     ! Where the table has the wheel, and its contacts there: from the height to the load, or back.
-    subroutine find_place(model, pair, state, is_loaded, load, z, place, contacts, is_there)
+    subroutine find_place(model, pair, state, is_given, load, z, place, contacts, is_there)
         type(wheelset_model_t), intent(in) :: model
         type(wheel_on_rail_t), intent(in) :: pair
         type(wheelset_state_t), intent(in) :: state
-        logical, intent(in) :: is_loaded
+        logical, intent(in) :: is_given
         real(wp), intent(inout) :: load, z
         real(wp), intent(out) :: place(n_wheel_place)
         real(wp), intent(out) :: contacts(n_contact_numbers, most_slots)
@@ -114,9 +114,9 @@ contains
                 moved = turned(arm, tilt) - arm
                 place = [centre(1) + moved(1), state%yaw, load]
                 is_there = .true.
-                if (.not. is_loaded) call load_at_height(model%lookup, model%lookup_order, place(1), &
-                                                       place(2), centre(2) + model%radius &
-                                                       + moved(2), place(3), is_there)
+                if (.not. is_given) &
+                    call load_at_height(model%lookup, model%lookup_order, place(1), place(2), &
+                                        centre(2) + model%radius + moved(2), place(3), is_there)
                 ! Not by a status: words would be allocated for it.
                 if (is_there) is_there = is_in_table(model%lookup, place)
                 if (.not. is_there) return
@@ -125,7 +125,7 @@ contains
                 if (.not. is_there) return
                 main = maxloc(contacts(at_load, :), dim=1)
                 arm = [pair%y_line + contacts(at_wheel_y, main), contacts(at_radius, main)]
-                if (.not. is_loaded) cycle
+                if (.not. is_given) cycle
                 centre(2) = contacts(at_height, main) - moved(2) - model%radius
                 centre = turned(centre - design, rail%roll) + lies
                 z = centre(2) + model%radius
