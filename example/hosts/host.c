@@ -512,7 +512,7 @@ static void wear_errors(faststrip_workspace *workspace)
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_wear(gone, 0, &law, 300.0, f));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_wear(wheelset, 0, &law, 300.0, f));
     EXPECT(0, faststrip_wheelset_last_message(wheelset, text, sizeof text));
-    EXPECT(0, strcmp(text, "there is no such contact: 1"));
+    EXPECT(0, strcmp(text, "there is no such contact: 0"));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_wear(wheelset, 0, &law, 300.0, NULL));
     EXPECT(FASTSTRIP_BAD_ARGUMENT,
            faststrip_wheelset_get_strips(wheelset, 0, 400, &n, a, a, a, a, k));
