@@ -202,8 +202,15 @@ class Interfaces(HostTest):
             solutions = []
             for k in range(60):
                 state = {"y": 0.2 + 1e-3 * k, "yaw": 1e-4 + 1e-6 * k, "speed": 2e4, **demand}
+                copy = package.Wheelset(estimate=False) if k == 40 else None
+                if copy is not None:
+                    copy.copy_from(wheelset)
                 found = wheelset.solve(warm_start=True, **state)
                 solutions.append(sum(found.n_solutions))
+                if copy is not None:
+                    again = copy.solve(warm_start=True, **state)
+                    self.assertEqual(again.n_solutions, found.n_solutions)
+                    self.assertEqual(again.force.tolist(), found.force.tolist())
                 if k % 20 == 0:
                     wanted = cold.solve(**state)
                     self.assertLess(abs(found.force - wanted.force).max(), 0.02)
