@@ -8,10 +8,9 @@ from dataclasses import dataclass, field
 import faststrip
 import numpy as np
 from bogie import FREE, PITCH, WHEELSETS, Array, Bogie, N
-from contact import ByTable, ByWheelset, Motion
+from contact import ByWheelset, Motion
 from scipy.integrate import solve_ivp
 
-Contact = ByWheelset | ByTable
 # Of a step: relative, and of coordinates (mm, rad) and rates.
 RELATIVE = 1e-4
 ABSOLUTE = {"y": (1e-4, 1e-1), "z": (1e-5, 1e-1), "roll": (1e-7, 1e-4), "pitch": (1e-4, 1e-4),
@@ -53,11 +52,11 @@ class Motions:
     Parameters
     ----------
     bogie : Bogie
-    contacts : two of ByWheelset or ByTable
+    contacts : two of ByWheelset
         Of the front and the rear wheelset.
     """
 
-    def __init__(self, bogie: Bogie, contacts: list[Contact]) -> None:
+    def __init__(self, bogie: Bogie, contacts: list[ByWheelset]) -> None:
         self.bogie, self.contacts = bogie, contacts
         self.failed = 0
         self.size = len(FREE)

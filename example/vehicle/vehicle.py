@@ -21,8 +21,8 @@ import faststrip
 import matplotlib.pyplot as plt
 import numpy as np
 from bogie import PITCH, YAW, Bogie, Track, Y
-from contact import METHODS, ByTable, ByWheelset
-from simulate import Contact, Motions, Run
+from contact import METHODS, ByWheelset
+from simulate import Motions, Run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CASE = "&wheel profile = 's1002' /\n&rail profile = '60e1' /\n&material mu = 0.3 /\n"
@@ -39,10 +39,10 @@ FULL = 20.0, 1.0, (80.0, 75.0, 70.0, 65.0, 60.0), 2.5, ("--y", "-8:8", "--tests"
 QUICK = 0.6, 0.1, (80.0,), 0.1, ("--y", "-6:6", "--tests", "299")
 
 
-def contacts(method: str, folder: pathlib.Path) -> list[Contact]:
+def contacts(method: str, folder: pathlib.Path) -> list[ByWheelset]:
     """Of both wheelsets."""
-    return [ByTable(folder / "wheel.fslt") if method == "table" else ByWheelset(method)
-            for _ in range(2)]
+    table = folder / "wheel.fslt" if method == "table" else None
+    return [ByWheelset(method, table) for _ in range(2)]
 
 
 def track(quick: bool) -> Track:
@@ -87,7 +87,6 @@ def loads_or_height(quick: bool, run: Run, folder: pathlib.Path) -> tuple[float,
     on the states of a run, each from the last: s."""
     motions = Motions(Bogie(track(quick), CURVE_SPEED), contacts("strips", folder))
     contact = motions.contacts[0]
-    assert isinstance(contact, ByWheelset)
     spent = np.zeros(2)
     for t, y in zip(run.t, run.y.T, strict=True):
         _, rails = motions.bogie.track_forces(CURVE_SPEED * t)
@@ -113,10 +112,10 @@ def draw_curve(path: pathlib.Path, runs: dict[str, Run], quick: bool) -> None:
         style = {"color": COLOURS[method], "lw": 0.9, "label": LABELS[method],
                  "zorder": ABOVE[method]}
         top.plot(run.t, run.y[Y], **style)
-        middle.plot(run.t, 1e3 * run.y[YAW], **style)
+        middle.plot(run.t, np.degrees(run.y[YAW]), **style)
     top.set_ylabel("y of the front wheelset, mm")
     top.legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
-    middle.set_ylabel("its yaw, mrad")
+    middle.set_ylabel("its yaw, degrees")
     here = track(quick)
     t = runs["strips"].t
     s = CURVE_SPEED * t
@@ -169,7 +168,7 @@ def draw_limit_cycles(path: pathlib.Path, cycles: dict[str, list[tuple[float, fl
     axes.set(xlabel="speed, m/s", ylabel="largest y of the front wheelset, mm")
     axes.set_ylim(bottom=0)
     axes.grid(alpha=0.3)
-    axes.legend()
+    axes.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
     figure.savefig(path, dpi=130)
     plt.close(figure)
 
@@ -203,8 +202,8 @@ def main() -> None:
         with open(folder / "table.log", "wb") as log:
             subprocess.run([options.program, "lookup", "wheel", folder / "wheel.nml", "-o",
                             folder / "wheel.fslt", "--error", "0.1", "--load", "10000:130000",
-                            "--threads", "1", *make], check=True, stdout=subprocess.DEVNULL,
-                           stderr=log)
+                            "--yaw", "-6e-3:6e-3", "--threads", "1", *make], check=True,
+                           stdout=subprocess.DEVNULL, stderr=log)
         early.append(pool.submit(through_curve, "table", folder, quick, end))
         kinds = [pool.submit(through_curve, "strips", folder, quick, short, differences)
                  for differences in (False, True)]

@@ -91,9 +91,9 @@ class Vehicle(HostTest):
         self.write("wheel.nml", "&wheel profile = 's1002' /\n&rail profile = '60e1' /\n"
                    "&material mu = 0.3 /\n")
         self.shell(f"'{self.installed.prefix}/bin/faststrip' lookup wheel wheel.nml -o wheel.fslt"
-                   " --error 0.1 --y 0:2 --load 40000:90000 --tests 299 2>&1")
+                   " --error 0.1 --y 0:1 --yaw -6e-4:6e-4 --load 50000:130000 --tests 299 2>&1")
         motions = self.motions(self.bogie.Track())
-        table = self.contact.ByTable(self.folder / "wheel.fslt")
+        table = self.contact.ByWheelset("table", self.folder / "wheel.fslt")
         state = motions.start()
         state[[0, 2, 4, 18, 20, 22]] = 0.2, -6e-5, 5e-4, 15.0, 1e-4, 0.01
         # In its mirror the left wheel is where the right one is on the other side.
@@ -103,6 +103,11 @@ class Vehicle(HostTest):
         apart = np.abs(found - exact) / (0.3 * 54.5e3)
         self.assertLess(apart[:, :3].max(), 0.1)
         self.assertGreater(np.abs(exact[:, 0]).min(), 0.3 * 0.3 * 54.5e3)
+        self.assertEqual(table.solve(motion).n_solutions, (0, 0))
+        exact, found = (one.derivatives(motion) for one in (motions.contacts[0], table))
+        for k, c in ((0, 1), (0, 2), (0, 4), (1, 0), (1, 2), (1, 3)):
+            apart = np.abs(found - exact)[:3, k, c].max()
+            self.assertLess(apart, 0.1 * np.abs(exact[:3, k, c]).max(), (k, c))
 
     def test_pictures_are_drawn_of_runs(self):
         _, run = self.vehicle.through_curve("strips", self.folder, True, 0.05)
