@@ -35,8 +35,8 @@ CYCLES = "strips", "table"
 RATE = 100  # times a second that are kept
 # Seconds in the curve, of the comparison of Jacobians; speeds down to which the limit cycle is
 # followed, m/s, and seconds at each; what the table is made with.
-FULL = 20.0, 1.0, (80.0, 75.0, 70.0, 65.0, 60.0), 2.5, ("--y", "-8:8", "--tests", "500")
-QUICK = 0.6, 0.1, (80.0,), 0.1, ("--y", "-6:6", "--tests", "299")
+FULL = 20.0, 1.0, (80.0, 75.0, 70.0, 65.0, 60.0), 2.5, "--y -8:8 --error 0.1 --tests 500"
+QUICK = 0.6, 0.1, (80.0,), 0.1, "--y -6:6 --error 0.2 --tests 299"
 
 
 def contacts(method: str, folder: pathlib.Path) -> list[ByWheelset]:
@@ -201,9 +201,9 @@ def main() -> None:
         say("making the wheel's table, and running strips and Hertz through the curve")
         with open(folder / "table.log", "wb") as log:
             subprocess.run([options.program, "lookup", "wheel", folder / "wheel.nml", "-o",
-                            folder / "wheel.fslt", "--error", "0.1", "--load", "10000:130000",
-                            "--yaw", "-6e-3:6e-3", "--threads", "1", *make], check=True,
-                           stdout=subprocess.DEVNULL, stderr=log)
+                            folder / "wheel.fslt", "--load", "10000:130000", "--yaw", "-6e-3:6e-3",
+                            "--threads", "1", *make.split()], check=True, stdout=subprocess.DEVNULL,
+                           stderr=log)
         early.append(pool.submit(through_curve, "table", folder, quick, end))
         kinds = [pool.submit(through_curve, "strips", folder, quick, short, differences)
                  for differences in (False, True)]
