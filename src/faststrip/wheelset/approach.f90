@@ -11,7 +11,7 @@ module faststrip_wheelset_approach
 
     public :: approach_search_t, start_search, take_force, is_found, is_near, usual_approach
     public :: largest_jump, near_enough, most_growth, equilibrium, most_tries
-    public :: telling
+    public :: telling, hertz_power
 
     ! Tuned [1]: equilibrium of one wheel, of the load. Origin: above the digits of a contact's
     ! solution; with 9e-11 forces change by as much.
@@ -35,7 +35,8 @@ module faststrip_wheelset_approach
     ! Tuned [N/mm**1.5]: force over the approach to 3/2, for a first guess. Origin: a steel wheel of
     ! 460 mm on a rail of 300 mm.
     real(wp), parameter :: usual_stiffness = 2.0e6_wp
-    ! Given: Hertz' law of a point contact.
+    !> Power of the approach that a force grows with.
+    !> Given: Hertz' law of a point contact.
     real(wp), parameter :: hertz_power = 1.5_wp
     !> Most by which an approach grows or shrinks in a step.
     !> Tuned [1]. Origin: safeguard: the force does by eight times.

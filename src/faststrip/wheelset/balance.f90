@@ -7,7 +7,7 @@ module faststrip_wheelset_balance
     use faststrip_geometry_wheel_outline, only: lowest_height
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_approach, only: usual_approach, largest_jump, near_enough, &
-                                           most_growth, equilibrium, most_tries
+                                           most_growth, equilibrium, most_tries, hertz_power
     use faststrip_wheelset_height, only: set_outline, try_height
     use faststrip_wheelset_loads, only: start_afresh
     use faststrip_wheelset_roll, only: roll_search_t, next_roll, most_roll_step
@@ -19,8 +19,6 @@ module faststrip_wheelset_balance
 
     public :: solve_for_balance, name_missing
 
-    ! Given: Hertz' law of a point contact.
-    real(wp), parameter :: hertz_power = 1.5_wp
     ! Tuned [1]: slopes are measured anew where more than this is left of what was missing. Origin:
     ! chosen: Broyden's method gains a digit in a step.
     real(wp), parameter :: least_progress = 0.5_wp

@@ -16,6 +16,7 @@ module faststrip_wheelset_derivatives
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, reversed_state, is_at_rest
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_wheelset_height, only: set_outline, try_height, as_right
+    use faststrip_wheelset_predict, only: yaw_lever
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_result_t, wheel_result_t, side_right, side_left
     use faststrip_wheelset_wheel, only: move_wheel, mirror_wheel, reverse_wheel
@@ -33,10 +34,6 @@ module faststrip_wheelset_derivatives
                                                         -1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp], &
                            reversed(2*n_coordinates) = [1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, &
                                                         1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp]
-
-    ! Tuned [mm]: the step of heights over it is that of the yaw. Origin: measured: with 40 rounding
-    ! of heights counts.
-    real(wp), parameter :: yaw_lever = 10.0_wp
 
 contains
 

@@ -6,17 +6,17 @@
 module faststrip_wheelset_predict
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
+    use faststrip_wheelset_approach, only: hertz_power
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, wheelset_demand_t, &
                                         side_right, side_left, demand_position, demand_loads
     implicit none
     private
 
-    public :: predict_heights, remember_heights
+    public :: predict_heights, remember_heights, yaw_lever
 
-    ! Given: Hertz' law of a point contact.
-    real(wp), parameter :: hertz_power = 2.0_wp/3.0_wp
-    ! Tuned [mm]: what a rad of yaw moves a contact by. Origin: chosen: some millimetres on a tread,
-    ! 20 on a flange.
+    !> What a rad of yaw moves a contact by.
+    !> Tuned [mm]. Origin: chosen: some millimetres on a tread, 20 on a flange; of steps of
+    !> differences measured: with 40 rounding of heights counts.
     real(wp), parameter :: yaw_lever = 10.0_wp
     ! Tuned [1]: a motion that is longer, over the last one, tells nothing. Origin: chosen.
     real(wp), parameter :: longest = 4.0_wp
@@ -101,6 +101,6 @@ contains
 
         roots = 0.5_wp*demand%axle_load
         if (demand%kind == demand_loads) roots = demand%load
-        roots = merge(max(roots, 0.0_wp)**hertz_power, 0.0_wp, demand%wants)
+        roots = merge(max(roots, 0.0_wp)**(1.0_wp/hertz_power), 0.0_wp, demand%wants)
     end function load_roots
 end module faststrip_wheelset_predict
