@@ -60,13 +60,16 @@ class ByWheelset:
         slide down flanges."""
         q, v = motion.q, motion.v
         curvature, right_y, right_z, left_y, left_z, right_rate, left_rate = motion.rails
+        # Rails roll with their sleepers.
+        roll, roll_rate = (right_z - left_z) / (2 * TREAD), (right_rate - left_rate) / (2 * TREAD)
         self.calls += 1
         return self.wheelset.solve(
             y=q[Y], z=q[Z], roll=q[ROLL], yaw=q[YAW], y_rate=v[Y], z_rate=v[Z], roll_rate=v[ROLL],
             yaw_rate=v[YAW], pitch_rate=v[PITCH], speed=motion.speed, curvature=curvature,
-            right_rail=faststrip.RailState(right_y, right_z, z_rate=right_rate),
-            left_rail=faststrip.RailState(left_y, left_z, z_rate=left_rate), warm_start=True,
-            **more)
+            right_rail=faststrip.RailState(right_y, right_z, roll, z_rate=right_rate,
+                                           roll_rate=roll_rate),
+            left_rail=faststrip.RailState(left_y, left_z, roll, z_rate=left_rate,
+                                          roll_rate=roll_rate), warm_start=True, **more)
 
     def forces(self, motion: Motion) -> Array:
         """On right and left wheel: Fx, Fy, Fz, N, and moments about the centre, N mm; in the

@@ -145,8 +145,12 @@ contains
         motion%pitch_rate = rolling + v(pitch)
         motion%yaw_rate = v(5)
         motion%curvature = under(1)
-        motion%rail(1) = rail_state_t(y=under(2), z=under(3), z_rate=under(6))
-        motion%rail(2) = rail_state_t(y=under(4), z=under(5), z_rate=under(7))
+        ! Rails roll with their sleepers.
+        motion%rail = rail_state_t(roll=(under(3) - under(5))/(2*tread), &
+                                   roll_rate=(under(6) - under(7))/(2*tread))
+        motion%rail%y = under([2, 4])
+        motion%rail%z = under([3, 5])
+        motion%rail%z_rate = under([6, 7])
     end function motion_of
 
     !> Limitations are below 100 and count; an error ends this program, where an integrator would

@@ -389,6 +389,16 @@ class WheelFaces(HostTest):
         self.assertLess(abs(np.array(here.z) - there.z).max(), 1e-3)
         self.assertAlmostEqual(here.contacts[0].contact_angle, there.contacts[0].contact_angle,
                                delta=5e-4)
+        # More roll over a rail than the promise bears is left to strips; not with the rail.
+        for roll, lies, by_strips in ((2e-3, 0.0, True), (6e-4, 0.0, True), (4e-4, 0.0, False),
+                                      (2e-3, 2e-3, False), (-2e-3, -1.3e-3, True)):
+            rail = self.package.RailState(roll=lies)
+            state = {"y": 0.4, "speed": 2e4, "load": 8e4, "roll": roll, "right_rail": rail,
+                     "left_rail": rail}
+            here = wheelset.solve(**state)
+            self.assertEqual(min(here.n_solutions) > 0, by_strips, (roll, lies))
+            if by_strips:
+                self.assertEqual(here.force.tolist(), strips.solve(**state).force.tolist())
 
     def test_beyond_the_table_strips_answer(self):
         strips, wheelset = (self.package.Wheelset() for _ in range(2))
