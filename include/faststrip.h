@@ -727,12 +727,12 @@ int faststrip_lookup_wheel_about(const faststrip_lookup *lookup, double numbers[
 int faststrip_lookup_wheel_z_errors(const faststrip_lookup *lookup, double errors[12]);
 
 /* Let the table of a wheel answer for a wheelset: for each wheel whose y, yaw and load are within
- * it, with n_solutions 0, its contacts, forces and moments come from the table; strips solve the
- * others, as without it. Both wheels and rails must be alike, friction constant, and the table that
- * of this wheel and rail and material, which three of its nodes are solved for (100). It stays
- * open: once it is freed, calls of the wheelset fail (100). null: strips alone again. Contacts have
- * load, penetration, area and pressure but no ends, strips or estimates; derivatives are refused
- * (100). */
+ * it, and that rolls by no more than 5e-4 rad over its rail, with n_solutions 0, its contacts,
+ * forces and moments come from the table; strips solve the others, as without it. Both wheels and
+ * rails must be alike, friction constant, and the table that of this wheel and rail and material,
+ * which three of its nodes are solved for (100). It stays open: once it is freed, calls of the
+ * wheelset fail (100). null: strips alone again. Contacts have load, penetration, area and pressure
+ * but no ends, strips or estimates; derivatives are refused (100). */
 int faststrip_wheelset_use_lookup(faststrip_wheelset *wheelset, const faststrip_lookup *lookup,
                                   enum faststrip_lookup_order order);
 

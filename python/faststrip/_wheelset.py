@@ -410,6 +410,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
     def use_lookup(self, table: Optional[WheelLookup], *, order: str = "cubic") -> None:
         """Let a table answer where it reaches; strips do beyond its ends.
 
+        A wheel that rolls by more than 5e-4 rad over its rail is beyond, too.
         A wheel that it answers for has an ``n_solutions`` of 0, and contacts without ends, strips,
         estimates and derivatives.
 
