@@ -572,6 +572,8 @@ typedef struct faststrip_wheelset_contact {
     double est_err_fx;
     double est_err_fy;
     double est_err_mz;
+    double est_err_load;   /* by how much profiles that are .5 um wrong may move the load, over it;
+                            * in proportion for others. One contact under a given load: 0 */
     int limitations;       /* as in faststrip_result */
     int n_strips;
     int n_elements;

@@ -26,8 +26,8 @@ static void show_contact(const faststrip_wheelset_contact *c)
                               {c->mz, c->friction_power},
                               {c->est_err_penetration, c->est_err_pmax},
                               {c->est_err_area, c->est_err_fx},
-                              {c->est_err_fy, c->est_err_mz}};
-    const int lengths[] = {5, 3, 3, 3, 2, 2, 2, 2};
+                              {c->est_err_fy, c->est_err_mz, c->est_err_load}};
+    const int lengths[] = {5, 3, 3, 3, 2, 2, 2, 3};
     double place[9] = {0.0}, forces[7];
     int i;
 

@@ -6,7 +6,7 @@ C     as bits.
       INTEGER IOPT(9), NPROF(4), IWORK(8), IDMND(4), N, INFO, I, K, IC
       INTEGER ISIDE
       DOUBLE PRECISION PAR(9), SETUP(9), Y(2*NPTS), Z(2*NPTS), S(11)
-      DOUBLE PRECISION DMND(4), CONT(47, 16), WRES(27), R(12), RK(12)
+      DOUBLE PRECISION DMND(4), CONT(48, 16), WRES(27), R(12), RK(12)
       DATA DMND /6.0D4, 5.0D4, 1.2D5, 1.0D6/
       DATA RK /0.01D0, -0.02D0, 1.0D-4, 2.0D0, -0.5D0, 1.0D-3,
      &  -0.02D0, 0.01D0, -2.0D-4, -1.0D0, 0.25D0, 2.0D-3/
@@ -94,8 +94,8 @@ C         rotates by itself.
 C     One contact, in the rows of the other languages' programs.
       SUBROUTINE SHOW(IWORK, K, CONT)
       INTEGER IWORK(8), K, I, M, LSET, INFO, LAST(11)
-      DOUBLE PRECISION CONT(47, 16)
-      DATA LAST /15, 20, 23, 26, 29, 31, 38, 41, 43, 45, 47/
+      DOUBLE PRECISION CONT(48, 16)
+      DATA LAST /15, 20, 23, 26, 29, 31, 38, 41, 43, 45, 48/
       CALL FSWSET(IWORK, K, LSET, INFO)
       IF (INFO .NE. 0) STOP 2
       WRITE (*, '(A, 7(1X, I0))') 'contact',

@@ -138,7 +138,8 @@ contains
             call show([figures%normal_errors%est_err_penetration, &
                        figures%normal_errors%est_err_pmax])
             call show([figures%normal_errors%est_err_area, figures%force_errors%fx])
-            call show([figures%force_errors%fy, figures%force_errors%mz])
+            call show([figures%force_errors%fy, figures%force_errors%mz, &
+                       contact%est_err_load])
         end associate
     end subroutine show_contact
 

@@ -83,6 +83,7 @@ QUANTITIES: Dict[str, Tuple[str, str, str]] = {
     "wheel_z": ("mm", "z on the profile of the wheel", ""),
     "radius": ("mm", "rolling radius", ""),
     "speed": ("mm s-1", "rolling speed", ""),
+    "est_err_load": ("1", "share of N that the accuracy of the profiles may move", ""),
     "moment_x": ("N mm", "moment about x of the track, about the centre of the wheelset", ""),
     "moment_y": ("N mm", "moment about y of the track, about the centre of the wheelset", ""),
     "moment_z": ("N mm", "moment about z of the track, about the centre of the wheelset", ""),
@@ -165,6 +166,6 @@ class Row(ctypes.Structure):
                  "stick_fraction"),
         *members(c_double * 3, "force", "force_wheelset", "moment"),
         *members(c_double, "est_err_penetration", "est_err_pmax", "est_err_area", "est_err_fx",
-                 "est_err_fy", "est_err_mz"),
+                 "est_err_fy", "est_err_mz", "est_err_load"),
         *members(c_int, "limitations", "n_strips", "n_elements"),
     ]

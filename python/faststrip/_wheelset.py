@@ -203,6 +203,7 @@ class WheelContact(Record):
     est_err_fy: Optional[float]
     est_err_mz: Optional[float]
     # END errors
+    est_err_load: float
     limitations: Tuple[str, ...]
 
 
@@ -218,7 +219,7 @@ def _contact_of(row: Row) -> WheelContact:
         tuple(row.place), row.angle, tuple(row.rail), tuple(row.wheel), *_MOTION(row),
         tuple(row.force), tuple(row.force_wheelset), tuple(row.moment),
         *(_ESTIMATES(row) if row.is_estimated else _NONE),
-        *(_FORCE_ERRORS(row) if row.forces_are_estimated else _NONE),
+        *(_FORCE_ERRORS(row) if row.forces_are_estimated else _NONE), row.est_err_load,
         limitation_words(row.limitations))
     return WheelContact(*figures)
 

@@ -109,6 +109,8 @@ module faststrip_files_columns
         column_t('z_wheel_mm', holds_numbers, 'z on the profile of the wheel', 'wheel_z'), &
         column_t('radius_mm', holds_numbers, 'rolling radius', 'radius'), &
         column_t('rolling_speed_mm_s', holds_numbers, 'rolling speed', 'speed'), &
+        column_t('est_err_load', holds_numbers, &
+                 'share of N that the accuracy of the profiles may move', 'est_err_load'), &
         column_t('body', holds_text, 'wheel or rail'), &
         column_t('y_profile_mm', holds_numbers, 'y on the profile'), &
         column_t('z_profile_mm', holds_numbers, 'z on the profile'), &

@@ -5,6 +5,8 @@ import ctypes
 import math
 import random
 
+import numpy as np
+
 from installed import HOSTS, ROOT, HostTest, bits
 
 
@@ -279,6 +281,51 @@ class Interfaces(HostTest):
         with self.assertRaisesRegex(package.FaststripError, "the wheelset is closed"):
             kept.copy_from(package.Wheelset())
 
+    def test_what_the_accuracy_of_profiles_leaves_open(self):
+        package = self.import_package()
+        y = np.arange(-30.0, 30.01, 0.25)
+
+        def contacts(slope, raised, **wanted):
+            # Beside the middle of the profile, where heights count from, by half as much.
+            gap = 6e-5 * (y * y - 49.0)**2 + slope * y - raised * np.tanh(y)
+            wheelset = package.Wheelset(
+                package.Profile(y, y * y / 600.0 - gap), package.Profile(y, y * y / 600.0),
+                rail_distance=1500.0, inclination=0.0, strips_per_patch=25)
+            return wheelset.solve(wheels="right", **wanted)
+
+        def moved(before, after):
+            return [abs(b.load / a.load - 1.0) / a.est_err_load
+                    for a, b in zip(before.contacts, after.contacts)]
+
+        for slope in (0.0, 2e-3):
+            before = contacts(slope, 0.0, load=4e4)
+            self.assertEqual(len(before.contacts), 2)
+            for raised in (5e-4, -5e-4):
+                for share in moved(before, contacts(slope, raised, load=4e4)):
+                    self.assertAlmostEqual(share, 1.0, delta=0.03)
+            for share in moved(contacts(slope, 0.0, z=before.z[0]),
+                               contacts(slope, 5e-4, z=before.z[0])):
+                self.assertAlmostEqual(share, 1.0, delta=0.03)
+        one, = contacts(0.0, 0.0, load=8e4).contacts
+        self.assertEqual(one.est_err_load, 0.0)
+        # The program's column, of what its users say of their profiles.
+        for accuracy in (0.5, 1.0):
+            self.write("two.nml", "&wheel\n  profile = 's1002'\n/\n&rail\n  profile = '60e1'\n"
+                       "  inclination = 0.05\n/\n&material\n  mu = 0.3\n/\n&numerics\n"
+                       f"  profile_accuracy_um = {accuracy}\n/\n")
+            self.write("y.csv", "case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N\n"
+                       "a,right,6.0,0,0,0,0,60000\n")
+            self.shell(f"'{self.installed.prefix}/bin/faststrip' wheelset two.nml --states y.csv"
+                       " -o two.csv")
+            text = (self.folder / "two.csv").read_text(encoding="utf-8")
+            rows = list(csv.DictReader(line for line in text.splitlines() if line[0] != "#"))
+            wheelset = package.Wheelset(inclination=0.05)
+            mine = wheelset.solve(y=6.0, load=6e4, wheels="right").contacts
+            self.assertEqual((len(mine), len(rows)), (2, 2))
+            for one, row in zip(mine, rows):
+                self.assertAlmostEqual(float(row["est_err_load"]),
+                                       2.0 * accuracy * one.est_err_load, delta=1e-9)
+
     def test_a_yawed_flange_is_near_the_exact_gap(self):
         package = self.import_package()
         text = (ROOT / "reference" / "wheelset" / "yawed_flanges.csv").read_text(encoding="utf-8")
@@ -404,7 +451,7 @@ class Interfaces(HostTest):
 
 def rows_of(one):
     """The rows of the other languages' programs, zero where nothing is estimated."""
-    estimates = [0.0 if value is None else value for value in one[-7:-1]]
+    estimates = [0.0 if value is None else value for value in one[-8:-1]]
     return (bits(*one.place, one.contact_angle, *one.rail, *one.wheel),
             bits(one.radius, one.speed, one.cksi, one.ceta, one.cphi),
             bits(one.load, one.penetration, one.area), bits(one.pmax, one.y_min, one.y_max),

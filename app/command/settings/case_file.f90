@@ -5,6 +5,7 @@ module faststrip_command_settings_case_file
     use faststrip_base_status, only: number_text
     use faststrip_base_text, only: integer_text
     use faststrip_geometry_rigid_contact, only: creepage_set_a, creepage_set_b
+    use faststrip_wheelset_types, only: standard_accuracy
     use faststrip_command_program_files, only: take_input
     use faststrip_command_settings_friction, only: read_friction_group
     use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, read_group, &
@@ -58,6 +59,8 @@ contains
             call refuse(group, 'contact_damping_s_per_mm', 'is for wheelsets only', '')
         if (case%speed_floor > 0.0_wp) &
             call refuse(group, 'speed_floor_mm_s', 'is for wheelsets only', '')
+        if (abs(case%profile_accuracy - standard_accuracy) > 0.0_wp) &
+            call refuse(group, 'profile_accuracy_um', 'is for wheelsets only', '')
         call read_sweep_group(content, case)
     end subroutine read_case
 

@@ -7,6 +7,7 @@ module faststrip_command_settings_methods
                                          tangential_none
     use faststrip_contact_wanted, only: target_pmax
     use faststrip_geometry_undeformed_gap, only: standard_gap_step, standard_gap_height
+    use faststrip_wheelset_types, only: standard_accuracy
     use faststrip_files_wear_law, only: read_wear_law
     use faststrip_command_program_console, only: fail_on_error
     use faststrip_command_settings_table, only: value_t
@@ -26,6 +27,7 @@ module faststrip_command_settings_methods
         real(wp) :: gap_height = standard_gap_height !! largest gap sampled, mm
         real(wp) :: damping = 0.0_wp     !! of a wheelset's contacts, s/mm
         real(wp) :: speed_floor = 0.0_wp !! of its rolling speeds, mm/s
+        real(wp) :: profile_accuracy = standard_accuracy !! of heights of its profiles, mm
         logical :: tolerance_is_given = .false. !! else it does not count beside a budget
         logical :: target_is_given = .false.    !! else it is pmax where no forces are asked for
     end type settings_t
@@ -83,6 +85,7 @@ contains
             case ('gap_height_mm'); choice%gap_height = value%number
             case ('contact_damping_s_per_mm'); choice%damping = value%number
             case ('speed_floor_mm_s'); choice%speed_floor = value%number
+            case ('profile_accuracy_um'); choice%profile_accuracy = mm_per_um*value%number
             case ('wear_file')
                 call read_wear_law(value%text, choice%wear_law, choice%wear_source, status)
                 call fail_on_error(status)

@@ -256,7 +256,10 @@ module faststrip_command_settings_table
                   range=from_0, default='0'), &
         setting_t('numerics', 'speed_floor_mm_s', a_number, &
                   'of a wheelset: rolling speed below which friction grows with slip velocities', &
-                  range=from_0, default='0')]
+                  range=from_0, default='0'), &
+        setting_t('numerics', 'profile_accuracy_um', a_number, &
+                  'of a wheelset: of heights of its profiles, for est_err_load', &
+                  range=from_0, default='0.5')]
 
     type(setting_t), parameter :: of_sweep(*) = [ &
         setting_t('sweep', 'shifts_mm', a_list, 'lateral shifts', most=most_shifts, &

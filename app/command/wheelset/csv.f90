@@ -38,13 +38,13 @@ module faststrip_command_wheelset_csv
         figure_est_err_area, figure_est_err_fx, figure_est_err_fy, figure_est_err_mz]
 
     ! In the order of `put_contact`. A wheel's lateral force bears a name of its own.
-    character(len=*), parameter :: names(48) = [character(len=26) :: &
+    character(len=*), parameter :: names(49) = [character(len=26) :: &
         'case', 'side', 'contact', 'status', 'x_track_mm', 'y_track_mm', 'z_track_mm', &
         'contact_angle_rad', 'cksi', 'ceta', 'cphi_rad_per_mm', figures(first_figures(:2))%column, &
         'Fs_N', figures(first_figures(4:))%column, 'Fx_track_N', 'Fy_track_N', 'Fz_track_N', &
         'z_mm', 'roll_rad', 'y_rail_mm', 'z_rail_mm', 'x_wheel_mm', 'y_wheel_mm', 'z_wheel_mm', &
         'radius_mm', 'rolling_speed_mm_s', 'Fx_wheelset_N', 'Fy_wheelset_N', 'Fz_wheelset_N', &
-        figures(last_figures)%column, 'message', 'limitations']
+        figures(last_figures)%column, 'est_err_load', 'message', 'limitations']
 
     ! Which solution it is, and where.
     character(len=*), parameter :: solution_columns(2) = [character(len=8) :: 'solution', 'y_mm']
@@ -145,6 +145,7 @@ contains
         call put_cells(writer, [contact%radius, contact%speed])
         call put_cells(writer, contact%force_wheelset)
         call put_figures(writer, last_figures, values, known)
+        call put_cell(writer, contact%est_err_load)
         if (contact%status%code == 0 .or. is_error(contact%status)) then
             call put_cell(writer, '')
         else

@@ -32,8 +32,8 @@ module faststrip_wheelset_solve
                                         wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load, demand_rest, most_contacts
-    use faststrip_wheelset_wheel, only: estimate_wheel, name_pressures, mirror_wheel, &
-                                        reverse_wheel, lend_scratch
+    use faststrip_wheelset_wheel, only: estimate_wheel, estimate_loads, name_pressures, &
+                                        mirror_wheel, reverse_wheel, lend_scratch
     implicit none
     private
 
@@ -449,6 +449,7 @@ contains
             associate (wheel => result%wheel(side))
                 if (model%case%estimate .and. wheel%solutions > 0) &
                     call estimate_wheel(model, workspace%wheel(side), wheel)
+                call estimate_loads(model, demand%kind /= demand_position, wheel)
                 if (.not. is_error(wheel%status)) call name_pressures(model%case%yield, wheel)
                 wheel%roll = state%roll
                 if (side == side_left) wheel%roll = -wheel%roll

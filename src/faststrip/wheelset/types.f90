@@ -19,7 +19,7 @@ module faststrip_wheelset_types
     public :: wheelset_model_t, wheelset_demand_t, wheel_contact_t, wheel_result_t
     public :: wheelset_result_t, wheel_workspace_t, wheelset_workspace_t, path_t
     public :: side_right, side_left, demand_position, demand_loads, demand_axle_load, demand_rest
-    public :: most_contacts
+    public :: most_contacts, standard_accuracy
 
     !> Given: places in arrays of both sides.
     integer, parameter :: side_right = 1
@@ -49,6 +49,10 @@ module faststrip_wheelset_types
     ! penetration.
     real(wp), parameter :: standard_height = 0.5_wp*standard_gap_height
 
+    !> How well the heights of profiles are known.
+    !> Tuned [mm]. Origin: drawings and profilometers; `est_err_load` is in proportion.
+    real(wp), parameter :: standard_accuracy = 0.5e-3_wp
+
     !> Most contacts of one wheel.
     integer, parameter :: most_contacts = most_regions
 
@@ -66,6 +70,8 @@ module faststrip_wheelset_types
             !! share by which forces of a contact grow with its approach rate, s/mm; 0: none
         real(wp) :: speed_floor = 0.0_wp
             !! of rolling speeds, below which forces grow with the velocities, mm/s; 0: none
+        real(wp) :: profile_accuracy = standard_accuracy
+            !! of the heights of profiles, for `est_err_load`, mm
         type(lookup_t), pointer :: lookup => null()
             !! of `enter_lookup`, the caller's: answers within its ends, strips beyond; null: none
         integer :: lookup_order = lookup_cubic    !! of its interpolation
@@ -102,6 +108,8 @@ module faststrip_wheelset_types
         type(creepage_t) :: creepage                !! -, -, rad/mm
         real(wp) :: approach_rate = 0.0_wp          !! of wheel and rail along the normal, mm/s
         type(contact_result_t) :: figures           !! of the contact's solution
+        real(wp) :: est_err_load = 0.0_wp
+            !! by how much profiles as exact as the model says may move the normal force, over it
         real(wp) :: force(3) = 0.0_wp               !! on the rail, in the track, with damping, N
         real(wp) :: force_wheelset(3) = 0.0_wp      !! the same in the wheelset's frame, N
         real(wp) :: moment(3) = 0.0_wp

@@ -23,11 +23,13 @@ module faststrip_wheelset_wheel
                                                  rail_velocity, &
                                                  cross
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
-                                        wheel_workspace_t
+                                        wheel_workspace_t, most_contacts
+    use faststrip_wheelset_approach, only: hertz_power
     implicit none
     private
 
-    public :: solve_wheel_at, estimate_wheel, name_pressures, mirror_wheel, reverse_wheel
+    public :: solve_wheel_at, estimate_wheel, estimate_loads
+    public :: name_pressures, mirror_wheel, reverse_wheel
     public :: take_motion, move_wheel, lend_scratch, find_motion, find_contact_force, place_on_wheel
     public :: add_contacts
 
@@ -182,6 +184,42 @@ contains
             end associate
         end do
     end subroutine estimate_wheel
+
+    !> What a wheel's profiles, as exact as the model says, leave open of each normal force.
+    !>
+    !> A contact whose gap is wrong by eps along its normal has an approach that is wrong by
+    !> c dz - eps, c the cosine of its angle, and N grows by k = 3/2 N/penetration with it (Hertz).
+    !> At a given load the wheel moves by dz, so that the sum of the vertical forces stays: one
+    !> contact is as exact as its load, two share the error.
+    pure subroutine estimate_loads(model, load_is_given, wheel)
+        type(wheelset_model_t), intent(in) :: model  !! its accuracy of profiles
+        logical, intent(in) :: load_is_given         !! or the height?
+        type(wheel_result_t), intent(inout) :: wheel !! solved
+
+        real(wp), dimension(most_contacts) :: stiffness, vertical, cosine
+        real(wp) :: total, rest, moved
+        integer :: i, n
+
+        n = wheel%n
+        do i = 1, n
+            associate (normal => wheel%contact(i)%figures%normal)
+                wheel%contact(i)%est_err_load = 0.0_wp
+                if (.not. (normal%penetration > 0.0_wp .and. normal%load > 0.0_wp)) return
+                stiffness(i) = hertz_power/normal%penetration
+                cosine(i) = cos(wheel%contact(i)%angle)
+                vertical(i) = stiffness(i)*wheel%contact(i)%force(3)
+            end associate
+        end do
+        total = sum(vertical(:n)*cosine(:n))
+        do i = 1, n
+            moved = 1.0_wp
+            if (load_is_given .and. total > 0.0_wp) then
+                rest = sum(abs(vertical(:n))) - abs(vertical(i))
+                moved = (abs(total - cosine(i)*vertical(i)) + cosine(i)*rest)/total
+            end if
+            wheel%contact(i)%est_err_load = model%profile_accuracy*stiffness(i)*moved
+        end do
+    end subroutine estimate_loads
 
     !> Name pressures of a wheel above the limit that the user has set; its status becomes the worst
     !> of its contacts'.

@@ -72,7 +72,7 @@ module faststrip_interop_c_wheelset
                           load, penetration, area, pmax, y_min, y_max, x_max, fx, fy, mz, &
                           friction_power, stick_fraction, force(3), force_wheelset(3), moment(3), &
                           est_err_penetration, est_err_pmax, est_err_area, est_err_fx, &
-                          est_err_fy, est_err_mz
+                          est_err_fy, est_err_mz, est_err_load
         integer(c_int) :: limitations, n_strips, n_elements
     end type c_contact_t
 
@@ -367,6 +367,7 @@ contains
             fields%est_err_fx = figures%force_errors%fx
             fields%est_err_fy = figures%force_errors%fy
             fields%est_err_mz = figures%force_errors%mz
+            fields%est_err_load = contact%est_err_load
             fields%n_strips = strip_count(workspace)
             fields%n_elements = workspace%field%n
         end associate

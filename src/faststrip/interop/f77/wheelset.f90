@@ -43,6 +43,7 @@
 !> CONT(36) to CONT(38) the same in the wheelset's frame
 !> CONT(39) to CONT(41) moment about the wheelset's centre in the track, N mm
 !> CONT(42) to CONT(47) as ERR(1) to ERR(3), FERR(1) to FERR(3)
+!> CONT(48) share of the normal force that .5 um of the profiles may move
 !> WRES(1), WRES(2) z of the wheelset's centre, right and left, mm     WRES(3) roll, rad
 !> WRES(4) to WRES(6) force on the right rail in the track, WRES(7) to WRES(9) on the left, N
 !> WRES(10) to WRES(15) the same in the wheelset's frame
@@ -77,7 +78,7 @@ module faststrip_interop_f77_wheelset
 
     ! Lengths of the rows above.
     integer, parameter :: n_setup = 9, n_state = 11, n_rails = 12, n_idmnd = 4, n_dmnd = 4, &
-                          n_cont = 47, n_wres = 27
+                          n_cont = 48, n_wres = 27
     ! Given: names of profiles, in the order of their numbers.
     character(len=6), parameter :: wheel_names(3) = ['s1002 ', 'cone20', 'cone40']
     character(len=6), parameter :: rail_names(3) = ['uic60 ', '60e1  ', '54e1  ']
@@ -303,7 +304,7 @@ contains
                         forces%fy, forces%mz, forces%friction_power, forces%stick_fraction, &
                         contact%force, contact%force_wheelset, contact%moment, &
                         errors%est_err_penetration, errors%est_err_pmax, errors%est_err_area, &
-                        wrong%fx, wrong%fy, wrong%mz]
+                        wrong%fx, wrong%fy, wrong%mz, contact%est_err_load]
             end associate
         end associate
     end function cont_of
