@@ -20,9 +20,12 @@ ROW = "gap.csv,210000,0.28,0.3,1e5,0.001,0,0"
 
 class EveryPlace(unittest.TestCase):
     def test_roles_places_and_spellings(self):
-        """As inputs, as files of others and as links: nothing of it is changed."""
+        """As inputs, as files of others and as links: nothing of it is changed.
+
+        Every third of them, in an order by chance; tools/check/hostile.py tries all.
+        """
         wrong = []
-        for i in range(len(side_files.tries())):
+        for i in range(0, len(side_files.tries()), 3):
             attempt = hostile.side_files(None, i)
             found, code, err = hostile.run(attempt, float(PATIENCE))
             if found:

