@@ -25,7 +25,7 @@ module faststrip_kalker_dissimilar
     use faststrip_kalker_normal, only: norm_workspace_t, norm_options_t, norm_solve_heights, &
                                        release_norm
     use faststrip_kalker_tangential, only: tang_workspace_t, tang_options_t, tang_solve, &
-                                           release_tang, take_tractions, tang_history_t, settled
+                                           release_tang, take_tractions, tang_history_t, converged
     implicit none
     private
 
@@ -96,7 +96,7 @@ contains
             call tang_solve(workspace%tang, workspace%norm%grid, problem%material, problem%mu, &
                             problem%creepage, tang_options, tangential, status, field, &
                             problem%friction, history)
-            if (is_error(status) .or. change <= settled) return
+            if (is_error(status) .or. change <= converged) return
             if (workspace%turns >= most_steps) then
                 call set_status(status, st_no_convergence, 'pressures and tractions of ' // &
                                 'dissimilar materials do not converge: the pressures change ' &

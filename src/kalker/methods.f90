@@ -296,7 +296,7 @@ contains
 
         associate (memory => self%memory)
             if (workspace%solved_by == normal_norm .and. .not. are_alike(case%material)) then
-                call settle_by_tang(memory, workspace, case, result, status)
+                call converge_by_tang(memory, workspace, case, result, status)
                 if (.not. is_error(status)) call take_rows(memory, workspace, status)
             else if (workspace%solved_by == normal_norm) then
                 call prepare_grid(memory, memory%norm%grid, workspace, case, status)
@@ -315,7 +315,7 @@ contains
     end subroutine solve_by_tang
 
     !> Solve both problems of dissimilar materials in turn on NORM's grid, until its pressures stay.
-    subroutine settle_by_tang(memory, workspace, case, result, status)
+    subroutine converge_by_tang(memory, workspace, case, result, status)
         type(kalker_memory_t), intent(inout) :: memory
         type(workspace_t), intent(inout), target :: workspace
         type(contact_case_t), intent(in) :: case
@@ -323,7 +323,7 @@ contains
         type(status_t), intent(out) :: status
 
         type(dissimilar_problem_t) :: problem
-        type(normal_result_t) :: settled
+        type(normal_result_t) :: converged
 
         problem%material = case%material
         problem%demand = case%demand_t
@@ -337,15 +337,15 @@ contains
             call memory%watch_tang(count(grid%pressure > 0.0_wp), .true.)
             if (case%asked%field) call grow_field(workspace, size(grid%pressure), status)
             if (is_error(status)) return
-            call solve_dissimilar(memory%dissimilar, grid, problem, settled, result%tangential, &
+            call solve_dissimilar(memory%dissimilar, grid, problem, converged, result%tangential, &
                                   status, asked_field(workspace, case))
             if (is_error(status)) return
-            settled%passes = result%normal%passes + settled%passes
-            settled%iterations = result%normal%iterations + settled%iterations
-            result%normal = settled
+            converged%passes = result%normal%passes + converged%passes
+            converged%iterations = result%normal%iterations + converged%iterations
+            result%normal = converged
             grid%pressure = memory%dissimilar%norm%grid%pressure
         end associate
-    end subroutine settle_by_tang
+    end subroutine converge_by_tang
 
     !> Refuse dissimilar materials with a smaller initial slope: moduli that are lowered for it
     !> would let pressures do more.

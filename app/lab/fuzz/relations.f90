@@ -122,7 +122,7 @@ contains
             call report_badness(verdict, relation, max(1.0_wp - ratio, ratio - load_factor)/slack)
         end select
         if (relation == check_monotone) return
-        ! One that is ok must stay so. Whether patches settle may turn on the rounding: then the
+        ! One that is ok must stay so. Whether patches converge may turn on the rounding: then the
         ! answer
         ! has a limitation, as has the other, and both agree as their estimates say.
         if ((verdict%status%code == st_ok) .neqv. (other%status%code == st_ok)) then

@@ -69,7 +69,7 @@ module faststrip_lab_studies_estimates
         real(wp) :: h_lowest = 0.0_wp
         type(normal_result_t) :: result(n_tried)
         type(normal_errors_t) :: normal_errors(n_tried), halves(n_tried)
-        logical :: is_smooth(n_tried) = .false. ! did all strips settle, no limitation?
+        logical :: is_smooth(n_tried) = .false. ! did all strips converge, no limitation?
         logical :: is_halved(n_tried) = .false. ! and is there a solution with half of them?
     end type studied_case_t
 
@@ -292,7 +292,7 @@ contains
                                 study%workspace%strips, reference, is_found)
     end subroutine find
 
-    !> Did all strips settle? A half-space that is doubtful is a half-space.
+    !> Did all strips converge? A half-space that is doubtful is a half-space.
     pure logical function is_smooth(status)
         type(status_t), intent(in) :: status
 

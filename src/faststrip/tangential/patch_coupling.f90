@@ -360,7 +360,7 @@ contains
     end subroutine sum_tractions
 
     !> Go half way to tractions that were found with others, if there are others: so patches that
-    !> act much on each other settle.
+    !> act much on each other converge.
     pure elemental subroutine approach(found, tractions)
         type(tractions_t), intent(in) :: found        !! by those others
         type(tractions_t), intent(inout) :: tractions !! the others; no bound: none

@@ -13,7 +13,7 @@
 !> both grids, 0.4, 0.45 and 0.8 of the area's.
 !>
 !> The factors bound 95 % of six creepages each of random contacts of eight families, 12 to 50
-!> elements across, against 72 and 108 carried on; for others see `docs/method.md`.
+!> elements across, against 72 and 108 extrapolated; for others see `docs/method.md`.
 module faststrip_kalker_tangential_estimate
     use faststrip_base_kinds, only: wp, pi
     use faststrip_normal_estimate_errors, only: normal_errors_t

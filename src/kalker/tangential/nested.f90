@@ -2,7 +2,7 @@
 !> finer one (nested iteration).
 !>
 !> States and tractions of a coarse grid are those of a fine one but near the borders of adhesion
-!> and slip, so that few Newton's steps are left on the fine grid. What is carried over is the
+!> and slip, so that few Newton's steps are left on the fine grid. What is passed on is the
 !> traction over the pressure, linearly between middles in contact. The fine grid's solution is
 !> the same to its tolerance wherever it starts.
 module faststrip_kalker_tangential_nested
@@ -82,16 +82,16 @@ contains
         is_started = .false.
         if (depth >= 3) call solve_level(nested%eighth)
         if (depth >= 2) then
-            if (is_started) call carry_over(nested%eighth, nested%quarter%problem, &
-                                            nested%quarter%newton)
+            if (is_started) call start_finer(nested%eighth, nested%quarter%problem, &
+                                             nested%quarter%newton)
             call solve_level(nested%quarter)
         end if
         if (depth >= 1) then
-            if (is_started) call carry_over(nested%quarter, nested%half%problem, &
-                                            nested%half%newton)
+            if (is_started) call start_finer(nested%quarter, nested%half%problem, &
+                                             nested%half%newton)
             call solve_level(nested%half)
         end if
-        if (is_started) call carry_over(nested%half, problem, newton)
+        if (is_started) call start_finer(nested%half, problem, newton)
 
     contains
 
@@ -161,7 +161,7 @@ contains
     end subroutine coarsen
 
     !> Start a finer problem at the tractions of a coarser one.
-    subroutine carry_over(level, problem, newton)
+    subroutine start_finer(level, problem, newton)
         type(level_t), intent(inout) :: level     !! solved
         type(problem_t), intent(in) :: problem    !! the finer one
         type(newton_t), intent(inout) :: newton   !! its tractions are written
@@ -207,7 +207,7 @@ contains
 
             place = 1.0_wp + (at - first)/side
         end function place
-    end subroutine carry_over
+    end subroutine start_finer
 
     !> Give plans and kernels back.
     subroutine release_nested(nested)

@@ -9,8 +9,9 @@
 !> across t. A step is solved with GMRES, rows of elements as its preconditioner, brought back to
 !> the bounds, and halved while |F| grows.
 !>
-!> Which nodes' slip is carried to the middles depends on the states (`variational_problem`); after
-!> some steps it is kept as it is, or a few elements near the pole of spin might change for ever.
+!> Which nodes' slip is extrapolated to the middles depends on the states (`variational_problem`);
+!> after some steps it is kept as it is, or a few elements near the pole of spin might change for
+!> ever.
 module faststrip_kalker_tangential_newton
     use faststrip_base_kinds, only: wp
     use faststrip_kalker_tangential_problem, only: problem_t, apply_influence, node_slip
@@ -23,8 +24,8 @@ module faststrip_kalker_tangential_newton
     !> Most vectors of GMRES; Newton's next step goes on from there.
     !> Tuned [vectors]. Origin: capacity: the tests and the outputs of ./run net take fewer.
     integer, parameter :: most_vectors = 60
-    !> Steps before the carried nodes are kept; passes of a falling bound that take all of the new
-    !> one, later ones the mean with the last.
+    !> Steps before the extrapolated nodes are kept; passes of a falling bound that take all of the
+    !> new one, later ones the mean with the last.
     !> Tuned [steps]. Origin: chosen against nodes, and elements, that swing.
     integer, parameter :: free_steps = 6
     ! Tuned [halvings]: Most halvings of a step. Origin: chosen.
@@ -48,7 +49,7 @@ module faststrip_kalker_tangential_newton
         real(wp), allocatable, private :: bound(:), r(:), trial(:, :), node(:, :), along(:, :), &
                                           tangent(:, :), resistance(:), change(:, :), size_t(:), &
                                           best(:, :)
-        logical, allocatable, private :: is_carried(:)
+        logical, allocatable, private :: is_extrapolated(:)
         integer, allocatable, private :: unknown(:)
         real(wp), allocatable, private :: basis(:, :), work(:), step(:), right(:)
     end type newton_t
@@ -68,7 +69,7 @@ contains
                 deallocate (newton%p, newton%slip, newton%sticks, newton%bound, newton%r, &
                             newton%trial, newton%node, newton%along, newton%tangent, &
                             newton%resistance, &
-                            newton%change, newton%size_t, newton%best, newton%is_carried, &
+                            newton%change, newton%size_t, newton%best, newton%is_extrapolated, &
                             newton%unknown, newton%basis, newton%work, newton%step, newton%right)
         end if
         if (.not. allocated(newton%p)) then
@@ -77,7 +78,7 @@ contains
                       newton%best(2, n), source=0.0_wp)
             allocate (newton%bound(n), newton%r(n), newton%resistance(n), newton%size_t(n), &
                       source=0.0_wp)
-            allocate (newton%sticks(n), newton%is_carried(n), source=.false.)
+            allocate (newton%sticks(n), newton%is_extrapolated(n), source=.false.)
             allocate (newton%unknown(n + 1), source=0)
             allocate (newton%basis(2*n, most_vectors + 1), newton%work(2*n), newton%step(2*n), &
                       newton%right(2*n), source=0.0_wp)
@@ -106,7 +107,7 @@ contains
         newton%bound = bound(:n)
         newton%is_converged = .false.
         newton%steps = 0
-        newton%is_carried = .false.
+        newton%is_extrapolated = .false.
         ! |F| without tractions.
         newton%best = newton%p
         newton%p = 0.0_wp
@@ -160,10 +161,10 @@ contains
     end subroutine bring_back
 
     !> Slip, states and |F| of the tractions `newton%p`.
-    subroutine evaluate(newton, problem, sticks_everywhere, may_carry, norm, without_elastic)
+    subroutine evaluate(newton, problem, sticks_everywhere, may_extrapolate, norm, without_elastic)
         type(newton_t), intent(inout) :: newton
         type(problem_t), intent(inout) :: problem
-        logical, intent(in) :: sticks_everywhere, may_carry
+        logical, intent(in) :: sticks_everywhere, may_extrapolate
         real(wp), intent(out) :: norm
         logical, intent(in), optional :: without_elastic
 
@@ -176,18 +177,18 @@ contains
             call node_slip(problem, newton%p, newton%node)
             newton%products = newton%products + 1
         end if
-        if (may_carry .and. problem%is_second_order) then
+        if (may_extrapolate .and. problem%is_second_order) then
             do i = 1, problem%n
                 t = newton%p(:, i) - newton%r(i)*newton%node(:, i)
                 newton%sticks(i) = t(1)**2 + t(2)**2 <= newton%bound(i)**2 .or. sticks_everywhere
             end do
-            newton%is_carried = .false.
+            newton%is_extrapolated = .false.
             do i = 2, problem%n
-                newton%is_carried(i) = .not. (problem%is_leading(i) .or. newton%sticks(i) &
-                                              .or. newton%sticks(i - 1))
+                newton%is_extrapolated(i) = .not. (problem%is_leading(i) .or. newton%sticks(i) &
+                                                   .or. newton%sticks(i - 1))
             end do
         end if
-        call carry(newton%is_carried, newton%node, newton%slip)
+        call extrapolate(newton%is_extrapolated, newton%node, newton%slip)
         norm = 0.0_wp
         do i = 1, problem%n
             t = newton%p(:, i) - newton%r(i)*newton%slip(:, i)
@@ -205,22 +206,22 @@ contains
     end subroutine evaluate
 
     !> Slip at the elements from that at their nodes.
-    pure subroutine carry(is_carried, node, slip)
-        logical, intent(in) :: is_carried(:)
+    pure subroutine extrapolate(is_extrapolated, node, slip)
+        logical, intent(in) :: is_extrapolated(:)
         real(wp), intent(in) :: node(:, :)
         real(wp), intent(inout) :: slip(:, :)
 
         integer :: i
 
-        do i = 1, size(is_carried)
-            if (is_carried(i)) then
+        do i = 1, size(is_extrapolated)
+            if (is_extrapolated(i)) then
                 ! Given: second-order extrapolation
                 slip(:, i) = 1.5_wp*node(:, i) - 0.5_wp*node(:, i - 1)
             else
                 slip(:, i) = node(:, i)
             end if
         end do
-    end subroutine carry
+    end subroutine extrapolate
 
     !> Newton's step into `newton%change`.
     subroutine find_step(newton, problem, demand, info)
@@ -250,12 +251,12 @@ contains
         newton%unknown(problem%n + 1) = m
         m = m - 1
         call factor_rows(newton%rows, problem, newton%unknown, newton%tangent, newton%resistance, &
-                         newton%is_carried, info)
+                         newton%is_extrapolated, info)
         if (info /= 0) return
         ! Slip as it will be by what is known already, and the bound's turning.
         call apply_influence(problem, newton%change, newton%node)
         newton%products = newton%products + 1
-        call carry(newton%is_carried, newton%node, newton%trial)
+        call extrapolate(newton%is_extrapolated, newton%node, newton%trial)
         do i = 1, problem%n
             associate (k => newton%unknown(i))
                 if (newton%sticks(i)) then
@@ -299,7 +300,7 @@ contains
         end do
         call apply_influence(problem, newton%trial, newton%node)
         newton%products = newton%products + 1
-        call carry(newton%is_carried, newton%node, newton%trial)
+        call extrapolate(newton%is_extrapolated, newton%node, newton%trial)
         do i = 1, problem%n
             associate (k => newton%unknown(i))
                 if (newton%sticks(i)) then
@@ -334,7 +335,7 @@ contains
             newton%iterations = newton%iterations + 1
             newton%work(:m) = newton%basis(:m, j)
             call solve_rows(newton%rows, problem, newton%unknown, newton%tangent, &
-                            newton%is_carried, newton%work(:m))
+                            newton%is_extrapolated, newton%work(:m))
             call multiply(newton, problem, newton%work(:m), newton%basis(:m, j + 1))
             do i = 1, j
                 h(i, j) = product_of(newton%basis(:m, i), newton%basis(:m, j + 1))
@@ -366,8 +367,8 @@ contains
         do i = 2, last
             newton%work(:m) = newton%work(:m) + rest(i)*newton%basis(:m, i)
         end do
-        call solve_rows(newton%rows, problem, newton%unknown, newton%tangent, newton%is_carried, &
-                        newton%work(:m))
+        call solve_rows(newton%rows, problem, newton%unknown, newton%tangent, &
+                        newton%is_extrapolated, newton%work(:m))
         newton%step(:m) = newton%work(:m)
     end subroutine gmres
 

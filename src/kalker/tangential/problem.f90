@@ -8,8 +8,8 @@
 !> -du/dx between the two: second order at the node, first order at the element.
 !>
 !> - **K1** *Sliding.* The traction opposes the slip of its element. The slip at the node is
-!>   carried to the middle with that of the node ahead, `1.5 s(node) - 0.5 s(node ahead)`, where
-!>   both elements slide. In adhesion both vanish and the node's slip serves.
+!>   extrapolated to the middle with that of the node ahead, `1.5 s(node) - 0.5 s(node ahead)`,
+!>   where both elements slide. In adhesion both vanish and the node's slip serves.
 !> - **K2** *Leading edge.* Where nothing slides ahead, the traction is like the root of the
 !>   distance from the edge. A lattice of tractions, and nodes half a step ahead of them, has this
 !>   root begin `edge_position` = 0.826 dx ahead of the first middle, wherever the true edge is
@@ -53,7 +53,7 @@ module faststrip_kalker_tangential_problem
 
     public :: problem_t, make_problem, release_problem, apply_influence, node_slip
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm, are_alike
-    public :: settled
+    public :: converged
 
     !> How slip is made of displacements.
     !> Given: numbers of kinds.
@@ -67,7 +67,7 @@ module faststrip_kalker_tangential_problem
     !> Change of the pressures, or of the bounds of friction, over all of them, at which they stay;
     !> a coupling of pressures and slip below it is none.
     !> Tuned [1]. Origin: far below the errors of any grid; moduli given with five digits.
-    real(wp), parameter :: settled = 1.0e-5_wp
+    real(wp), parameter :: converged = 1.0e-5_wp
 
     !> Elements, influence and rigid slip; arrays grow with the grid.
     type :: problem_t
@@ -301,7 +301,7 @@ contains
     pure logical function are_alike(material)
         type(material_t), intent(in) :: material !! checked moduli, MPa
 
-        are_alike = abs(coupling_constant(material)) <= settled
+        are_alike = abs(coupling_constant(material)) <= converged
     end function are_alike
 
     !> Add to the rigid slip what the pressures of dissimilar materials do, less what they did

@@ -36,7 +36,7 @@ module faststrip_kalker_tangential_rows
         real(sp), allocatable :: inverse(:)  !! of all blocks
         real(wp), allocatable :: column_scale(:) !! of the unknowns' columns, by elements
         logical, allocatable :: stuck(:)     !! state of an element when its block was inverted
-        logical, allocatable :: carried(:)   !! `is_carried` then
+        logical, allocatable :: extrapolated(:) !! `is_extrapolated` then
         real(wp), allocatable :: turned(:, :) !! tangent then
         real(wp), allocatable :: resisted(:) !! resistance over the own compliance then
         real(sp), allocatable :: own_x(:)    !! `own_row` over the own compliance, -nx to nx
@@ -88,11 +88,12 @@ contains
         end if
         if (.not. allocated(rows%inverse)) allocate (rows%inverse(capacity), source=0.0_sp)
         if (allocated(rows%stuck)) then
-            if (size(rows%stuck) < problem%n) deallocate (rows%stuck, rows%carried, rows%turned, &
-                                                          rows%resisted, rows%column_scale)
+            if (size(rows%stuck) < problem%n) &
+                deallocate (rows%stuck, rows%extrapolated, rows%turned, rows%resisted, &
+                            rows%column_scale)
         end if
         if (.not. allocated(rows%stuck)) then
-            allocate (rows%stuck(problem%n), rows%carried(problem%n), source=.false.)
+            allocate (rows%stuck(problem%n), rows%extrapolated(problem%n), source=.false.)
             allocate (rows%turned(2, problem%n), rows%resisted(problem%n), &
                       rows%column_scale(problem%n), source=0.0_wp)
         end if
@@ -120,13 +121,13 @@ contains
     !> Unknowns stand in the order of the elements, `unknown(i)` the first of element i: two for one
     !> in adhesion, the tractions' changes; one for one that slides, the change along `tangent(:,
     !> i)`.
-    subroutine factor_rows(rows, problem, unknown, tangent, resistance, is_carried, info)
+    subroutine factor_rows(rows, problem, unknown, tangent, resistance, is_extrapolated, info)
         type(rows_t), intent(inout) :: rows       !! inverted
         type(problem_t), intent(in) :: problem    !! made
         integer, intent(in) :: unknown(:)         !! of element n + 1: one beyond the last
         real(wp), intent(in) :: tangent(:, :)     !! direction along the bound, shape (2, n)
         real(wp), intent(in) :: resistance(:)     !! slip by turning the traction alone, 1/MPa
-        logical, intent(in) :: is_carried(:)      !! is slip carried from node to middle?
+        logical, intent(in) :: is_extrapolated(:)      !! is slip extrapolated from node to middle?
         integer, intent(out) :: info              !! not 0: a singular block
 
         integer :: block, from, to, n, m, i
@@ -141,7 +142,7 @@ contains
             rows%is_ready(block) = .false.
             do i = from, to
                 rows%stuck(i) = unknown(i + 1) - unknown(i) == 2
-                rows%carried(i) = is_carried(i)
+                rows%extrapolated(i) = is_extrapolated(i)
                 rows%column_scale(i) = 1.0_wp
                 if (rows%stuck(i)) cycle
                 rows%turned(:, i) = tangent(:, i)
@@ -177,7 +178,7 @@ contains
             serves_on = .false.
             do k = from, to
                 if (rows%stuck(k) .neqv. unknown(k + 1) - unknown(k) == 2) return
-                if (rows%carried(k) .neqv. is_carried(k)) return
+                if (rows%extrapolated(k) .neqv. is_extrapolated(k)) return
                 if (rows%stuck(k)) cycle
                 if (sum((rows%turned(:, k) - tangent(:, k))**2) > least_change**2) return
                 if (abs(resistance(k) - rows%resisted(k)*rows%unit) > &
@@ -270,7 +271,7 @@ contains
             d = problem%column(k) - problem%column(i)
             b = [rows%own_x(d), rows%own_y(d)]
             if (k == i) b = b + real(problem%edge(:, i)/rows%unit, sp)
-            if (.not. rows%carried(k)) return
+            if (.not. rows%extrapolated(k)) return
             ! Given: second-order extrapolation
             b = 1.5_sp*b - 0.5_sp*[rows%own_x(d + 1), rows%own_y(d + 1)]
             if (i == k - 1) b = b - 0.5_sp*real(problem%edge(:, i)/rows%unit, sp)
@@ -278,12 +279,12 @@ contains
     end subroutine fill
 
     !> Solve with the inverted blocks, each with what the blocks ahead of it in its row cause.
-    subroutine solve_rows(rows, problem, unknown, tangent, is_carried, v)
+    subroutine solve_rows(rows, problem, unknown, tangent, is_extrapolated, v)
         type(rows_t), intent(inout) :: rows       !! inverted; capacity to work in
         type(problem_t), intent(in) :: problem    !! made
         integer, intent(in) :: unknown(:)         !! as for `factor_rows`
         real(wp), intent(in) :: tangent(:, :)     !! as for `factor_rows`
-        logical, intent(in) :: is_carried(:)      !! as for `factor_rows`
+        logical, intent(in) :: is_extrapolated(:)      !! as for `factor_rows`
         real(wp), intent(inout), contiguous :: v(:) !! right-hand side, then solution
 
         integer :: block, from, to, row_first, i
@@ -305,18 +306,18 @@ contains
                 rows%px = 0.0_sp
                 rows%py = 0.0_sp
             end if
-            call solve_block(rows, problem, unknown, tangent, is_carried, block, &
+            call solve_block(rows, problem, unknown, tangent, is_extrapolated, block, &
                              problem%column(row_first), scale, v)
         end do
     end subroutine solve_rows
 
     !> One block, with the tractions of those ahead in `rows%px`, `rows%py`.
-    subroutine solve_block(rows, problem, unknown, tangent, is_carried, block, ahead, scale, v)
+    subroutine solve_block(rows, problem, unknown, tangent, is_extrapolated, block, ahead, scale, v)
         type(rows_t), intent(inout) :: rows
         type(problem_t), intent(in) :: problem
         integer, intent(in) :: unknown(:)
         real(wp), intent(in) :: tangent(:, :)
-        logical, intent(in) :: is_carried(:)
+        logical, intent(in) :: is_extrapolated(:)
         integer, intent(in) :: block  ! which
         integer, intent(in) :: ahead  ! leading column of its row
         real(wp), intent(in) :: scale ! of v
@@ -340,7 +341,7 @@ contains
                 if (leading < ahead) then
                     c = problem%column(k)
                     s = [rows%sx(c), rows%sy(c)]
-                    if (is_carried(k)) then
+                    if (is_extrapolated(k)) then
                         ! Given: second-order extrapolation
                         s = 1.5_sp*s - 0.5_sp*[rows%sx(c + 1), rows%sy(c + 1)]
                         if (k == from) s = s - 0.5_sp*real(problem%edge(:, k - 1)/rows%unit, sp) &

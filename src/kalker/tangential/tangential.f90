@@ -41,12 +41,12 @@ module faststrip_kalker_tangential
     use faststrip_kalker_tangential_problem, only: problem_t, make_problem, release_problem, &
                                                    scheme_second_order, scheme_first_order, &
                                                    edges_sampled, edges_of_norm, are_alike, &
-                                                   settled
+                                                   converged
     implicit none
     private
 
     public :: tang_options_t, tang_workspace_t, tang_solve, release_tang
-    public :: take_tractions, are_alike, settled
+    public :: take_tractions, are_alike, converged
     public :: tang_history_t, keep_history
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm
     public :: motion_rolling, motion_shift
@@ -207,7 +207,7 @@ contains
             call find_tractions_under(workspace, options, status)
             if (is_error(status) .or. .not. falls(friction) .or. options%sticks_everywhere) return
             call follow_slip(workspace, mu, friction, change)
-            if (change <= settled) return
+            if (change <= converged) return
             if (workspace%passes >= most_steps) then
                 workspace%is_solved = .false.
                 call set_status(status, st_no_convergence, 'friction falls so steeply with ' // &

@@ -110,7 +110,7 @@ contains
 
     !> Strips that carry a load.
     !>
-    !> The strips carry the load to rounding, whether the ends of the patches settled or not.
+    !> The strips carry the load to rounding, whether the ends of the patches converged or not.
     subroutine lattice_solve(workspace, curve, compliance, load, n_strips, strips, penetration, &
                              status)
         type(lattice_workspace_t), intent(inout) :: workspace !! reserved beforehand

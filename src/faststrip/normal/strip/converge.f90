@@ -2,9 +2,9 @@
 !>
 !> The ends of the patches join the unknowns of `faststrip_normal_strip_equations`, each moving
 !> outwards in units of its end strip's width; their equations are those of
-!> `faststrip_normal_strip_end_unknowns`: the squared strip length, carried on, vanishes at the end.
-!> Newton's method solves them with coefficients that are carried on from their last evaluation
-!> (`faststrip_normal_strip_carried`), and with factors that serve until steps shrink too slowly.
+!> `faststrip_normal_strip_end_unknowns`: the squared strip length, extrapolated, is 0 at the end.
+!> Newton's method solves them with coefficients that are linearised at their last evaluation
+!> (`faststrip_normal_strip_linearised`), and with factors that serve until steps shrink too slowly.
 !> The coefficients err by the square of what has changed: they are evaluated anew until that is
 !> below the tolerance, and where a change is too large to be trusted. In scaled unknowns the
 !> factors hardly change from one load to the next: a warm start takes over coefficients and
@@ -17,7 +17,8 @@ module faststrip_normal_strip_converge
     use faststrip_base_limits, only: beyond_all
     use faststrip_numerics_lu, only: lu_solve
     use faststrip_normal_strip_equations, only: count_step, count_evaluation, mark_leaving_strips
-    use faststrip_normal_strip_carried, only: carry, carries, carried_change
+    use faststrip_normal_strip_linearised, only: linearise_coefficients, is_linear_of, &
+                                                 linear_change
     use faststrip_normal_strip_coupled_equations, only: coupled_residual, coupled_factors
     use faststrip_normal_strip_end_unknowns, only: end_t, list_ends, shift_ends, in_order
     use faststrip_normal_strip_ends, only: end_width
@@ -130,7 +131,7 @@ contains
         course%held = held
         course%follows = workspace%graded .and. .not. held
         course%m = 2*workspace%strips%n + 1 + n_ends
-        course%again = .not. carries(workspace%carried, patches)
+        course%again = .not. is_linear_of(workspace%linear, patches)
         do trial = 1, max_steps
             outcome = not_converged
             call evaluate(workspace, trial, patches, course, cost, possible)
@@ -170,7 +171,7 @@ contains
 
         possible = .true.
         if (.not. course%again) then
-            course%again = carried_change(workspace%carried, workspace%strips) &
+            course%again = linear_change(workspace%linear, workspace%strips) &
                            > merge(trusted_held, trusted, course%held)
             if (.not. course%again) return
             ! Factors of coefficients that have changed so much do not serve any more: steps by
@@ -186,7 +187,7 @@ contains
             call renew_edges(workspace, patches)
             course%moved = 0.0_wp
         end if
-        call carry(workspace%carried, workspace%strips, patches)
+        call linearise_coefficients(workspace%linear, workspace%strips, patches)
         call count_evaluation(cost, workspace%strips%n)
         course%size_before = beyond_all
         course%again = .false.
@@ -279,7 +280,7 @@ contains
         left = course%size_now*min(course%size_now/course%size_before, slow)/(1.0_wp - slow)
         if (.not. course%size_before < beyond_all) left = course%size_now*slow/(1.0_wp - slow)
         course%size_before = course%size_now
-        change = carried_change(workspace%carried, workspace%strips)
+        change = linear_change(workspace%linear, workspace%strips)
         error = merge(second_order, second_order_apart, patches%n == 1)*change**2
         if (left <= finest*tolerance .and. error <= tolerance) then
             if (course%follows) call look_for_edges(workspace, patches, course%moved)

@@ -4,7 +4,7 @@
 module faststrip_normal_strip_coupled_equations
     use faststrip_base_kinds, only: wp
     use faststrip_numerics_lu, only: lu_factor
-    use faststrip_normal_strip_carried, only: carried_residual, carried_jacobian
+    use faststrip_normal_strip_linearised, only: linear_residual, linear_jacobian
     use faststrip_normal_strip_patches, only: patches_t
     use faststrip_normal_strip_ends, only: end_width
     use faststrip_normal_strip_end_unknowns, only: end_t, wanted
@@ -32,7 +32,7 @@ contains
 
         integer :: e
 
-        call carried_residual(workspace%carried, workspace%strips, compliance, demand, residual)
+        call linear_residual(workspace%linear, workspace%strips, compliance, demand, residual)
         do e = 1, size(ends)
             residual(2*workspace%strips%n + 1 + e) = wanted(workspace, ends(e))
         end do
@@ -58,8 +58,8 @@ contains
         m = 2*n + 1 + size(ends)
         associate (jacobian => workspace%newton%jacobian, residual => workspace%newton%step, &
                    other => workspace%newton%other(:, 1))
-            call carried_jacobian(workspace%carried, workspace%strips, compliance, demand, &
-                                  p_scale, jacobian, residual)
+            call linear_jacobian(workspace%linear, workspace%strips, compliance, demand, &
+                                 p_scale, jacobian, residual)
             jacobian(2*n + 2:m, :m) = 0.0_wp
             do e = 1, size(ends)
                 residual(2*n + 1 + e) = wanted(workspace, ends(e))
@@ -88,8 +88,8 @@ contains
                     moved%at(ends(e)%patch)%y_to = moved%at(ends(e)%patch)%y_to - away
                 end if
                 call position_edges(workspace, moved)
-                call carried_residual(workspace%carried, workspace%strips, compliance, demand, &
-                                      other)
+                call linear_residual(workspace%linear, workspace%strips, compliance, demand, &
+                                     other)
                 jacobian(:2*n + 1, 2*n + 1 + e) = (other(:2*n + 1) - residual(:2*n + 1))/difference
                 call position_edges(workspace, patches)
             end do

@@ -1,7 +1,7 @@
 !> Ends of patches as unknowns: where they are, how far they should move, and moving them.
 !>
 !> Each moves outwards in units of its end strip's width (`end_width`); its equation is that of
-!> `end_step`: the squared strip length, carried on, vanishes at the end.
+!> `end_step`: the squared strip length, extrapolated, vanishes at the end.
 module faststrip_normal_strip_end_unknowns
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strip_ends, only: end_step, end_width, end_stride

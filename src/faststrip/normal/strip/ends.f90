@@ -14,7 +14,7 @@ module faststrip_normal_strip_ends
 
     public :: move_ends, part_ends, close_overlaps, overlap_left, end_step, end_width, end_stride
 
-    !> How far an end may be carried on, inwards and outwards.
+    !> How far an end may be extrapolated, inwards and outwards.
     !> Tuned [strip widths]. Origin: safeguard: an end moves no farther in a pass.
     real(wp), parameter :: farthest_in = -1.0_wp, farthest_out = 2.0_wp
 
@@ -33,7 +33,7 @@ module faststrip_normal_strip_ends
     ! Tuned [1]. Origin: a round contact between plane strain and a needle.
     real(wp), parameter :: plane_strain_share = 0.6_wp ! pressure of a new patch over a long one's
     ! Tuned [strips]. Origin: chosen for the patch ends of many strips.
-    integer, parameter :: fine_patch = 24    ! from so many strips on an end is carried on from
+    integer, parameter :: fine_patch = 24    ! from so many strips on an end is extrapolated from
     ! Tuned [doublings]: most of the step that an end may take towards "too far". Origin: safeguard:
     ! powers of two cannot overflow.
     integer, parameter :: most_pushes = 20
@@ -174,7 +174,7 @@ contains
         pushes = min(pushes + 1, most_pushes)
     end subroutine hold_back
 
-    !> How many strips apart the three strips are from which an end is carried on.
+    !> How many strips apart the three strips are from which an end is extrapolated.
     pure integer function end_stride(n_strips)
         integer, intent(in) :: n_strips !! of the patch
 

@@ -1,7 +1,7 @@
 !> The ways to a solution by strips, in the order in which they are tried.
 !>
 !> Strips and ends together, from the last solution or from the level set of a Hertz ellipse; where
-!> that does not settle, from the patches of a row of cells, together and then in turn; then few
+!> that does not converge, from the patches of a row of cells, together and then in turn; then few
 !> strips in turn. More than 20 strips are reached by way of 15. A gap whose ends do not converge,
 !> within a bounded work, gets the answer of `faststrip_normal_cells_lattice`.
 module faststrip_normal_strip_levels
@@ -15,8 +15,8 @@ module faststrip_normal_strip_levels
     use faststrip_normal_strip_figures, only: summarize
     use faststrip_normal_strip_patches, only: fewest_strips
     use faststrip_normal_strip_row, only: find_patches
-    use faststrip_normal_strip_settle, only: level_t, settling_t, settle_together, &
-                                             settle_in_turn
+    use faststrip_normal_strip_level, only: level_t, attempt_t, solve_together, &
+                                            solve_in_turn
     use faststrip_normal_strip_start, only: start_patches, resume_patches
     use faststrip_normal_strip_state, only: strip_workspace_t, forget_edges
     use faststrip_normal_types, only: normal_result_t, demand_t
@@ -26,8 +26,8 @@ module faststrip_normal_strip_levels
     public :: strip_options_t, strips_auto, strips_auto_most
     public :: solve_by_levels
 
-    !> As many strips as the maximum pressure and the penetration need to settle, 15 to 41, or to be
-    !> resolved, up to `strips_auto_most`.
+    !> As many strips as the maximum pressure and the penetration need to converge, 15 to 41, or to
+    !> be resolved, up to `strips_auto_most`.
     !> Given: number of a kind.
     integer, parameter :: strips_auto = 0
     integer, parameter :: strips_auto_most = 81
@@ -81,47 +81,47 @@ module faststrip_normal_strip_levels
 contains
 
     !> Solve by strips, or else by the lattice.
-    subroutine solve_by_levels(workspace, compliance, demand, options, strips, result, n_settled, &
-                               all_settled, status)
+    subroutine solve_by_levels(workspace, compliance, demand, options, strips, result, &
+                               n_converged, all_converged, status)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
         real(wp), intent(in) :: compliance         !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand       !! load or penetration above the lowest height
         type(strip_options_t), intent(in) :: options !! number of strips, tolerance, start
         type(contact_strips_t), intent(inout) :: strips !! of the solution
         type(normal_result_t), intent(inout) :: result !! its figures
-        integer, intent(out) :: n_settled    !! strips per patch of the solution; 0: the lattice's
-        logical, intent(out) :: all_settled  !! did as many as were asked settle?
+        integer, intent(out) :: n_converged    !! strips per patch of the solution; 0: the lattice's
+        logical, intent(out) :: all_converged  !! did as many as were asked converge?
         type(status_t), intent(inout) :: status !! those of the lattice
 
         type(plan_t) :: plan
-        type(settling_t) :: settling
+        type(attempt_t) :: attempt
         integer :: way, first_way, level
         logical :: found
 
         call forget_lattice_errors(workspace%lattice)
         plan = level_plan(options%strips_per_patch)
-        n_settled = 0
-        settling%settled = .false.
+        n_converged = 0
+        attempt%converged = .false.
         first_way = merge(from_last, from_level, options%warm_start .and. workspace%old%n > 0)
         do way = first_way, few_first
-            call begin(workspace, compliance, demand, way, settling, found)
+            call begin(workspace, compliance, demand, way, attempt, found)
             if (.not. found) cycle
             if (way == from_last) then
                 level = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
             else if (way == from_level) then
                 level = 1
             else if (way == few_first) then
-                if (n_settled > 0) exit
+                if (n_converged > 0) exit
                 plan = with_few(plan)
             end if
             ! A row starts where the level before has failed.
-            call climb(workspace, compliance, demand, options, plan, way, level, settling, &
-                       strips, result, n_settled)
-            if (settling%settled .or. (plan%is_auto .and. n_settled > 0)) exit
+            call climb(workspace, compliance, demand, options, plan, way, level, attempt, &
+                       strips, result, n_converged)
+            if (attempt%converged .or. (plan%is_auto .and. n_converged > 0)) exit
         end do
-        all_settled = settling%settled
+        all_converged = attempt%converged
         result%iterations = result%cost%iterations
-        if (n_settled == 0) then
+        if (n_converged == 0) then
             workspace%old%n = 0
             call fall_back(workspace, compliance, demand, &
                            min(maxval(plan%strips(:plan%n)), most_fallback_strips), strips, &
@@ -129,41 +129,41 @@ contains
             return
         end if
         workspace%old_load = result%load
-        workspace%old_penetration = settling%penetration*result%correction
+        workspace%old_penetration = attempt%penetration*result%correction
         workspace%old_correction = result%correction
         ! What did not converge is no start for the next solution.
-        if (.not. all_settled) workspace%old%n = 0
+        if (.not. all_converged) workspace%old%n = 0
     end subroutine solve_by_levels
 
     !> What a way starts from; but for the last solution, no bit of one before is left.
-    subroutine begin(workspace, compliance, demand, way, settling, found)
+    subroutine begin(workspace, compliance, demand, way, attempt, found)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
         integer, intent(in) :: way
-        type(settling_t), intent(inout) :: settling
+        type(attempt_t), intent(inout) :: attempt
         logical, intent(out) :: found ! are there patches?
 
         found = .true.
         if (way == from_last) then
-            settling%in_doubt = any(workspace%old%at(:workspace%old%n)%meets_next)
-            call resume_patches(workspace, demand, settling%patches, settling%penetration)
+            attempt%in_doubt = any(workspace%old%at(:workspace%old%n)%meets_next)
+            call resume_patches(workspace, demand, attempt%patches, attempt%penetration)
             return
         end if
-        call start_patches(workspace%curve, compliance, demand, settling%patches, &
-                           settling%penetration)
+        call start_patches(workspace%curve, compliance, demand, attempt%patches, &
+                           attempt%penetration)
         workspace%old%n = 0
-        workspace%carried%known = .false.
+        workspace%linear%known = .false.
         workspace%newton%kept = .false.
         call forget_edges(workspace, .true.)
-        settling%in_doubt = way == from_row .or. way == row_in_turn
-        if (settling%in_doubt) call find_patches(workspace, compliance, demand, settling%patches, &
-                                        settling%penetration, found)
+        attempt%in_doubt = way == from_row .or. way == row_in_turn
+        if (attempt%in_doubt) call find_patches(workspace, compliance, demand, attempt%patches, &
+                                        attempt%penetration, found)
     end subroutine begin
 
     !> Solve with the numbers of strips of a plan, each from the one before.
-    subroutine climb(workspace, compliance, demand, options, plan, way, level, settling, strips, &
-                     result, n_settled)
+    subroutine climb(workspace, compliance, demand, options, plan, way, level, attempt, strips, &
+                     result, n_converged)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
@@ -171,10 +171,10 @@ contains
         type(plan_t), intent(in) :: plan
         integer, intent(in) :: way        ! what it starts from
         integer, intent(inout) :: level   ! of the plan: the first, then the last
-        type(settling_t), intent(inout) :: settling ! with the patches to start from
+        type(attempt_t), intent(inout) :: attempt ! with the patches to start from
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
-        integer, intent(inout) :: n_settled ! strips of the last level that settled
+        integer, intent(inout) :: n_converged ! strips of the last level that converged
 
         type(level_t) :: asked
         type(normal_result_t) :: coarser
@@ -185,16 +185,16 @@ contains
             asked = level_t(plan%strips(level), maxval(plan%strips(:plan%n)), options%tolerance, &
                             way /= from_level .or. level > first)
             coarser = result
-            settling%settled = .false.
+            attempt%converged = .false.
             if (level > first .or. way < row_in_turn) &
-                call settle_together(workspace, compliance, demand, asked, settling, strips, result)
+                call solve_together(workspace, compliance, demand, asked, attempt, strips, result)
             ! The last may be reached without those between.
-            if (.not. (settling%settled .or. plan%is_auto) .and. level > first &
+            if (.not. (attempt%converged .or. plan%is_auto) .and. level > first &
                 .and. level < plan%n) cycle
-            if (.not. settling%settled .and. (level > first .or. way >= row_in_turn)) &
-                call settle_in_turn(workspace, compliance, demand, asked, settling, strips, result)
-            if (.not. settling%settled) return
-            n_settled = plan%strips(level)
+            if (.not. attempt%converged .and. (level > first .or. way >= row_in_turn)) &
+                call solve_in_turn(workspace, compliance, demand, asked, attempt, strips, result)
+            if (.not. attempt%converged) return
+            n_converged = plan%strips(level)
             if (.not. plan%is_auto .or. level <= first) cycle
             if (.not. is_resolved(workspace, compliance, strips, result, &
                                   options%resolution_limit)) cycle

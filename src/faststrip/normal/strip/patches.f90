@@ -13,7 +13,7 @@ module faststrip_normal_strip_patches
     !> Most patches a contact may have at a time.
     !> Tuned [patches]. Origin: capacity.
     integer, parameter :: max_patches = 16
-    !> Fewest strips a patch can be cut into: its ends are carried on from three.
+    !> Fewest strips a patch can be cut into: its ends are extrapolated from three.
     !> Tuned [strips]. Origin: a parabola through three.
     integer, parameter :: fewest_strips = 3
     !> A second patch gets fewer strips than the largest, in proportion to its width, but these.

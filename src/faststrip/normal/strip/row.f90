@@ -40,7 +40,7 @@ module faststrip_normal_strip_row
     ! Tuned [1]: of the penetration a row finds, the level of the next. Origin: chosen: the next row
     ! finds a little more or less.
     real(wp), parameter :: above = 1.1_wp
-    ! Tuned [cells]: how far an end is carried on from the edge of its cell. Origin: chosen.
+    ! Tuned [cells]: how far an end is extrapolated from the edge of its cell. Origin: chosen.
     real(wp), parameter :: farthest_in = 0.2_wp, farthest_out = 0.5_wp
     ! Tuned [cells]: two ends so far apart, by the loads of the cells beside them, are those of two
     ! patches. Origin: chosen for the steps; from .3 to 1 steps change by 2 %.

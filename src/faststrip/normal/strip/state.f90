@@ -6,7 +6,7 @@ module faststrip_normal_strip_state
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
     use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice
-    use faststrip_normal_strip_carried, only: carried_t, reserve_carried
+    use faststrip_normal_strip_linearised, only: linearised_t, reserve_linearised
     use faststrip_normal_strip_grading, only: grade, grade_plainly
     use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
     use faststrip_normal_strip_pass, only: pass_strips_t, reserve_pass_strips
@@ -32,7 +32,7 @@ module faststrip_normal_strip_state
         type(gap_curve_t) :: image  !! its mirror image, if the gap counts as one
         integer :: image_of = 0     !! the curve's version that this is the image of; 0: of none
         type(newton_workspace_t) :: newton
-        type(carried_t) :: carried  !! influence coefficients of the last warm solution
+        type(linearised_t) :: linear  !! influence coefficients of the last warm solution
         type(lattice_workspace_t) :: lattice
         type(patches_t) :: old      !! the last patches that were solved
         real(wp) :: old_load = 0.0_wp        !! the load they carried, N
@@ -74,7 +74,7 @@ contains
         call reserve_lattice(workspace%lattice, max_strips, status)
         if (is_error(status)) return
         call reserve_newton(workspace%newton, max_strips)
-        call reserve_carried(workspace%carried, max_strips)
+        call reserve_linearised(workspace%linear, max_strips)
         if (workspace%max_strips >= max_strips) return
         call reserve_pass_strips(workspace%strips, max_strips)
         if (allocated(workspace%old_p0)) &
@@ -303,8 +303,8 @@ contains
                 do k = first, last
                     eta = 0.5_wp*(before + edge(k))
                     ellipse = sqrt(1.0_wp - eta**2)
-                    strips%p0(k) = ellipse*carried_on(middle, pressure, first, last, eta)
-                    strips%half_length(k) = ellipse*carried_on(middle, length, first, last, eta) &
+                    strips%p0(k) = ellipse*extrapolated(middle, pressure, first, last, eta)
+                    strips%half_length(k) = ellipse*extrapolated(middle, length, first, last, eta) &
                                             /sqrt(strips%inv2r(k))
                     before = edge(k)
                 end do
@@ -354,7 +354,7 @@ contains
         call reverse(workspace%old_half_length(:n))
         call mirror_patches(workspace%old)
         workspace%newton%kept = .false.
-        workspace%carried%known = .false.
+        workspace%linear%known = .false.
         call forget_edges(workspace, .true.)
     end subroutine mirror_old
 
@@ -371,16 +371,16 @@ contains
         last = first + workspace%old%at(q)%n_strips - 1
         ellipse = sqrt(1.0_wp - eta**2)
         associate (strips => workspace%strips, old_eta => workspace%old_eta)
-            strips%p0(i) = ellipse*carried_on(old_eta, workspace%old_p0, first, last, eta_old)
-            strips%half_length(i) = ellipse*carried_on(old_eta, workspace%old_half_length, first, &
-                                                       last, eta_old) &
+            strips%p0(i) = ellipse*extrapolated(old_eta, workspace%old_p0, first, last, eta_old)
+            strips%half_length(i) = ellipse*extrapolated(old_eta, workspace%old_half_length, &
+                                                         first, last, eta_old) &
                                     /sqrt(strips%inv2r(i)/workspace%old_inv2r)
         end associate
     end subroutine start_from_old
 
     !> Values of the strips of a patch, at some place of it: by the strip with the one nearest the
     !> place in the middle.
-    pure real(wp) function carried_on(eta, values, first, last, at)
+    pure real(wp) function extrapolated(eta, values, first, last, at)
         real(wp), intent(in) :: eta(:), values(:) ! middles of strips, rising, and values there
         integer, intent(in) :: first, last        ! strips of the patch
         real(wp), intent(in) :: at                ! place
@@ -390,8 +390,8 @@ contains
         do k = first, last - 3
             if (eta(k + 1) + eta(k + 2) >= 2.0_wp*at) exit
         end do
-        carried_on = between(eta(k:k + 2), values(k:k + 2), at)
-    end function carried_on
+        extrapolated = between(eta(k:k + 2), values(k:k + 2), at)
+    end function extrapolated
 
     !> The parabola through three points, not beyond them by more than they differ.
     pure real(wp) function between(x, y, at)

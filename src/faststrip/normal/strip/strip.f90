@@ -1,11 +1,11 @@
 !> Normal contact by strips along the rolling direction: NFASTSTRIP.
 !>
 !> The paper gives the influence of a strip and not the algorithm that finds the patch. Here the
-!> strips of a patch always fill it: its two ends move until the squared strip length, carried on
+!> strips of a patch always fill it: its two ends move until the squared strip length, extrapolated
 !> by a quadratic through the last three strips, vanishes at them. Strips and ends are solved for
 !> together (`faststrip_normal_strip_converge`), from the last solution or the shape of a Hertz
 !> contact; where that does not succeed, from the patches of a row of cells, together or in turn
-!> (`faststrip_normal_strip_levels`, `faststrip_normal_strip_settle`). A scan outside the patches
+!> (`faststrip_normal_strip_levels`, `faststrip_normal_strip_level`). A scan outside the patches
 !> finds gaps that the deformed surfaces have closed, which makes patches appear, grow or merge
 !> (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`). A gap whose ends do not
 !> converge, within a bounded work, gets the answer of `faststrip_normal_cells_lattice`.
@@ -29,7 +29,7 @@ module faststrip_normal_strip
                                             name_limitations, name_steps
     use faststrip_normal_strips, only: contact_strips_t, mirror_strips
     use faststrip_normal_strip_ends, only: overlap_left
-    use faststrip_normal_strip_settle, only: solve_near
+    use faststrip_normal_strip_level, only: solve_near
     use faststrip_normal_strip_levels, only: strip_options_t, strips_auto, strips_auto_most, &
                                              solve_by_levels
     use faststrip_normal_strip_patches, only: fewest_strips
@@ -151,8 +151,8 @@ contains
 
         character(len=message_length) :: words
         real(wp) :: penetration ! above the lowest height
-        integer :: n_settled    ! strips per patch that settled, 0: the lattice's answer
-        logical :: all_settled, mirrored, found
+        integer :: n_converged    ! strips per patch that converged, 0: the lattice's answer
+        logical :: all_converged, mirrored, found
 
         mirrored = workspace%curve%is_image
         if ((options%warm_start .or. options%stays) .and. workspace%old%n > 0) then
@@ -162,7 +162,7 @@ contains
             if (workspace%old_is_mirrored .neqv. mirrored) call mirror_old(workspace)
         else
             ! No bit of what follows depends on a history before.
-            workspace%carried%known = .false.
+            workspace%linear%known = .false.
             workspace%newton%kept = .false.
         end if
         workspace%old_is_mirrored = mirrored
@@ -178,7 +178,7 @@ contains
                                              'has its patches and strips')
         else
             call solve_by_levels(workspace, compliance, demand, options, strips, result, &
-                                 n_settled, all_settled, status)
+                                 n_converged, all_converged, status)
         end if
         if (mirrored) then
             call swap_gap_curves(workspace%curve, workspace%image)
@@ -187,7 +187,7 @@ contains
         end if
         if (is_error(status) .or. options%stays) return
         penetration = result%penetration - workspace%curve%h_lowest
-        if (n_settled > 0) then
+        if (n_converged > 0) then
             if (overlap_left(workspace%curve, compliance, penetration/result%correction, strips) &
                 > named_overlap) &
                 call add_limitation(status, st_overlap_left, 'surfaces overlap outside the ' &
@@ -203,15 +203,16 @@ contains
             result = normal_result_t()
             return
         end if
-        if (n_settled == 0) return
-        if (options%strips_per_patch /= strips_auto .and. n_settled > options%strips_per_patch) then
-            words = count_text(n_settled)
+        if (n_converged == 0) return
+        if (options%strips_per_patch /= strips_auto &
+            .and. n_converged > options%strips_per_patch) then
+            words = count_text(n_converged)
             call add_words(words, ' strips used where '//count_text(options%strips_per_patch))
             call add_words(words, ' were asked, which are too few')
             call add_limitation(status, st_more_strips, words)
         end if
         ! Of itself, auto asks for as many as are resolved.
-        if (.not. (all_settled .or. options%strips_per_patch == strips_auto)) &
+        if (.not. (all_converged .or. options%strips_per_patch == strips_auto)) &
             call add_limitation(status, st_fewer_strips, &
                                 'fewer strips than asked: more did not converge')
     end subroutine solve

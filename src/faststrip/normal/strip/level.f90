@@ -5,7 +5,7 @@
 !> for between ends that are held, then the ends move; strips that leave are cut off and split their
 !> patch. From near enough strips and ends are tried together again. A pass whose ends move little
 !> more may stand.
-module faststrip_normal_strip_settle
+module faststrip_normal_strip_level
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t, usual_strips, usual_strip_tolerance
     use faststrip_normal_strip_converge, only: converge, converged, strips_leave
@@ -21,14 +21,14 @@ module faststrip_normal_strip_settle
     implicit none
     private
 
-    public :: solve_near, level_t, settling_t, settle_together, settle_in_turn
+    public :: solve_near, level_t, attempt_t, solve_together, solve_in_turn
 
     ! Tuned [tries]. Origin: chosen; what fails four times does not converge.
     integer, parameter :: max_couplings = 4  ! so often strips and ends are tried together
     ! Tuned [passes]. Origin: safeguard.
     integer, parameter :: max_passes = 40    ! with ends in turn
     ! Tuned [passes]: from then on a pass is solved to the end, and may stand. Origin: chosen for
-    ! the time: what settles has done so by then.
+    ! the time: what converges has done so by then.
     integer, parameter :: max_coarse_passes = 10
     ! Tuned [passes]: after so many none of which was better the best stands, if it may. Origin:
     ! chosen for the time: ends that come and go do so without rest.
@@ -39,7 +39,7 @@ module faststrip_normal_strip_settle
     integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     ! Work of all ways together: so much, and so many steps of all strips.
     ! Tuned [influence coefficients; steps]. Origin: chosen: bounds the time of gaps that do not
-    ! settle.
+    ! converge.
     real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 100.0_wp
     ! Tuned [strip widths]. Origin: errors of the area well below those of 15 strips.
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
@@ -68,69 +68,69 @@ module faststrip_normal_strip_settle
         logical :: near = .false.         !! do the strips start near a solution?
     end type level_t
 
-    !> Where the settling of a level stands, and what it leaves.
-    type :: settling_t
+    !> Where the attempt of a level stands, and what it leaves.
+    type :: attempt_t
         type(patches_t) :: patches        !! those the next pass starts with
         real(wp) :: penetration = 0.0_wp  !! last found, above the lowest height, mm
         integer :: splits = 0             !! patches split by strips that left
         logical :: in_doubt = .false.     !! do patches split and join, so that a row found them?
-        logical :: settled = .false.      !! is there a pass that stands?
-    end type settling_t
+        logical :: converged = .false.    !! is there a pass that stands?
+    end type attempt_t
 
 contains
 
     !> Strips and ends together, until nothing overlaps beside the patches.
-    subroutine settle_together(workspace, compliance, demand, level, settling, strips, result)
+    subroutine solve_together(workspace, compliance, demand, level, attempt, strips, result)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
         real(wp), intent(in) :: compliance              !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand            !! load or penetration
         type(level_t), intent(in) :: level              !! what is asked for
-        type(settling_t), intent(inout) :: settling
+        type(attempt_t), intent(inout) :: attempt
             !! starts from its patches and penetration; says how it ended
-        type(contact_strips_t), intent(inout) :: strips !! of the solution, if it settled
+        type(contact_strips_t), intent(inout) :: strips !! of the solution, if it converged
         type(normal_result_t), intent(inout) :: result  !! of the solution; costs are added
 
-        type(settling_t) :: start
+        type(attempt_t) :: start
         integer :: coupling, edges
         logical :: done
 
-        call begin(level, settling)
-        start = settling
+        call begin(level, attempt)
+        start = attempt
         workspace%graded = .true.
         ! From far off edges that follow the ends alone succeed more often.
         do edges = 1, 2
             do coupling = 1, max_couplings
-                call couple(workspace, compliance, demand, level, settling, strips, result, done)
+                call couple(workspace, compliance, demand, level, attempt, strips, result, done)
                 if (done) exit
             end do
-            if (settling%settled) exit
-            settling = start
+            if (attempt%converged) exit
+            attempt = start
             call forget_edges(workspace, .false.)
-            workspace%carried%known = .false.
+            workspace%linear%known = .false.
             workspace%newton%kept = .false.
         end do
-        if (workspace%graded .or. .not. settling%settled) return
-        call let_edges_follow(workspace, compliance, demand, level, settling, strips, result)
-    end subroutine settle_together
+        if (workspace%graded .or. .not. attempt%converged) return
+        call let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
+    end subroutine solve_together
 
     !> Strips between ends that are held, and the ends, in turn.
-    subroutine settle_in_turn(workspace, compliance, demand, level, settling, strips, result)
+    subroutine solve_in_turn(workspace, compliance, demand, level, attempt, strips, result)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
         real(wp), intent(in) :: compliance              !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand            !! load or penetration
         type(level_t), intent(in) :: level              !! what is asked for
-        type(settling_t), intent(inout) :: settling
+        type(attempt_t), intent(inout) :: attempt
             !! starts from its patches and penetration; says how it ended
-        type(contact_strips_t), intent(inout) :: strips !! of the best pass, if it settled
+        type(contact_strips_t), intent(inout) :: strips !! of the best pass, if it converged
         type(normal_result_t), intent(inout) :: result  !! of the best pass; costs are added
 
-        type(settling_t) :: best
+        type(attempt_t) :: best
         type(patches_t) :: solved
         real(wp) :: tolerance, moved, best_move
         integer :: pass, best_pass, couplings, outcome
         logical :: at_rest, possible, changed, done
 
-        call begin(level, settling)
+        call begin(level, attempt)
         ! Ends that are moved in turn come and go with edges that follow the gap.
         call forget_edges(workspace, .false.)
         tolerance = max(merge(near_tolerance, far_tolerance, level%near), level%tolerance)
@@ -140,22 +140,22 @@ contains
         couplings = 0
         do pass = 1, max_passes
             if (best_move <= loose_end_tolerance .and. pass > best_pass + max_idle_passes) exit
-            call position(workspace, level, size(strips%p0), result%cost, settling, possible)
+            call position(workspace, level, size(strips%p0), result%cost, attempt, possible)
             if (.not. possible) exit
-            call converge(workspace, compliance, demand, tolerance, .true., settling%patches, &
+            call converge(workspace, compliance, demand, tolerance, .true., attempt%patches, &
                           result%cost, outcome)
             result%passes = result%passes + 1
             if (outcome == strips_leave) then
-                call cut(workspace, level, settling, possible)
+                call cut(workspace, level, attempt, possible)
                 if (.not. possible) exit
                 cycle
             end if
             if (outcome /= converged) exit
-            settling%penetration = workspace%strips%penetration
-            call remember(workspace, settling%patches)
-            solved = settling%patches
-            call move_ends(workspace, pass, settling%patches, moved)
-            call join_overlaps(workspace, compliance, level, settling, changed)
+            attempt%penetration = workspace%strips%penetration
+            call remember(workspace, attempt%patches)
+            solved = attempt%patches
+            call move_ends(workspace, pass, attempt%patches, moved)
+            call join_overlaps(workspace, compliance, level, attempt, changed)
             if (changed) then
                 at_rest = .false.
                 tolerance = max(far_tolerance, level%tolerance)
@@ -165,7 +165,7 @@ contains
                 if (moved < best_move) then
                     best_move = moved
                     best_pass = pass
-                    best = settling
+                    best = attempt
                     best%patches = solved
                     call keep(workspace, best, strips, result)
                 end if
@@ -175,21 +175,21 @@ contains
             tolerance = next_tolerance(level%tolerance, pass, moved)
             if (.not. moved < coupling_move .or. couplings == max_couplings) cycle
             couplings = couplings + 1
-            call couple(workspace, compliance, demand, level, settling, strips, result, done)
-            if (.not. settling%settled) cycle
+            call couple(workspace, compliance, demand, level, attempt, strips, result, done)
+            if (.not. attempt%converged) cycle
             best_move = 0.0_wp
-            best = settling
+            best = attempt
             exit
         end do
-        settling%settled = best_move <= loose_end_tolerance
+        attempt%converged = best_move <= loose_end_tolerance
         ! More strips start from where the ends were going.
-        if (.not. settling%settled .or. level%strips_per_patch < level%most_strips) return
+        if (.not. attempt%converged .or. level%strips_per_patch < level%most_strips) return
         ! Passes after the best have left other patches.
-        settling = best
-        settling%settled = .true.
-        if (best_move > 0.0_wp) call take_back(workspace, strips, settling)
-        call let_edges_follow(workspace, compliance, demand, level, settling, strips, result)
-    end subroutine settle_in_turn
+        attempt = best
+        attempt%converged = .true.
+        if (best_move > 0.0_wp) call take_back(workspace, strips, attempt)
+        call let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
+    end subroutine solve_in_turn
 
     !> The tolerance of the next pass, by how far the ends have moved in this one.
     pure real(wp) function next_tolerance(tolerance, pass, moved)
@@ -206,16 +206,16 @@ contains
 
     !> A solution whose edges follow the ends alone: let them follow the gap, at once or part by
     !> part. Where that does not succeed the last solution stays.
-    subroutine let_edges_follow(workspace, compliance, demand, level, settling, strips, result)
+    subroutine let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
         type(level_t), intent(in) :: level
-        type(settling_t), intent(inout) :: settling
+        type(attempt_t), intent(inout) :: attempt
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
 
-        type(settling_t) :: last
+        type(attempt_t) :: last
         real(wp) :: share, moved
         integer :: i
         logical :: done
@@ -224,38 +224,38 @@ contains
         if (level%strips_per_patch < level%most_strips) return
         share = 1.0_wp
         do i = 1, most_parts
-            last = settling
-            call look_for_edges(workspace, settling%patches, moved)
+            last = attempt
+            call look_for_edges(workspace, attempt%patches, moved)
             call take_edges(workspace, share)
-            call couple(workspace, compliance, demand, level, settling, strips, result, done)
-            if (settling%settled) then
+            call couple(workspace, compliance, demand, level, attempt, strips, result, done)
+            if (attempt%converged) then
                 if (workspace%graded) return
                 share = min(1.0_wp, 2.0_wp*share)
             else
-                settling = last
-                call take_back(workspace, strips, settling)
+                attempt = last
+                call take_back(workspace, strips, attempt)
                 share = first_part*share
             end if
         end do
     end subroutine let_edges_follow
 
     !> The workspace as a solution that was handed over has left it.
-    pure subroutine take_back(workspace, strips, settling)
+    pure subroutine take_back(workspace, strips, attempt)
         type(strip_workspace_t), intent(inout) :: workspace
         type(contact_strips_t), intent(in) :: strips
-        type(settling_t), intent(inout) :: settling
+        type(attempt_t), intent(inout) :: attempt
 
         integer :: n
 
         n = strips%n
-        call know_edges(workspace, settling%patches, strips%y_right(:n))
+        call know_edges(workspace, attempt%patches, strips%y_right(:n))
         workspace%strips%n = n
-        workspace%strips%penetration = settling%penetration
+        workspace%strips%penetration = attempt%penetration
         workspace%strips%p0(:n) = strips%p0(:n)
         workspace%strips%half_length(:n) = strips%half_length(:n)
-        call position_edges(workspace, settling%patches)
-        call remember(workspace, settling%patches)
-        workspace%carried%known = .false.
+        call position_edges(workspace, attempt%patches)
+        call remember(workspace, attempt%patches)
+        workspace%linear%known = .false.
         workspace%newton%kept = .false.
     end subroutine take_back
 
@@ -302,57 +302,57 @@ contains
     end subroutine solve_near
 
     !> Everything but patches and penetration as at the start; share the strips.
-    pure subroutine begin(level, settling)
+    pure subroutine begin(level, attempt)
         type(level_t), intent(in) :: level
-        type(settling_t), intent(inout) :: settling
+        type(attempt_t), intent(inout) :: attempt
 
-        integer :: before(size(settling%patches%at))
+        integer :: before(size(attempt%patches%at))
 
-        call free_ends(settling%patches)
-        settling%splits = 0
-        settling%settled = .false.
-        before = settling%patches%at%n_strips
-        call share_strips(level%strips_per_patch, settling%patches)
+        call free_ends(attempt%patches)
+        attempt%splits = 0
+        attempt%converged = .false.
+        before = attempt%patches%at%n_strips
+        call share_strips(level%strips_per_patch, attempt%patches)
         if (.not. level%near) return
         ! A small patch keeps its strips where one more or less would only cost a new Jacobian.
-        associate (n => settling%patches%n)
+        associate (n => attempt%patches%n)
             if (maxval(before(:n)) == level%strips_per_patch &
-                .and. all(abs(before(:n) - settling%patches%at(:n)%n_strips) <= 1)) &
-                settling%patches%at(:n)%n_strips = before(:n)
+                .and. all(abs(before(:n) - attempt%patches%at(:n)%n_strips) <= 1)) &
+                attempt%patches%at(:n)%n_strips = before(:n)
         end associate
     end subroutine begin
 
     !> Cut the patches into strips, if strips and work are left.
-    pure subroutine position(workspace, level, capacity, cost, settling, possible)
+    pure subroutine position(workspace, level, capacity, cost, attempt, possible)
         type(strip_workspace_t), intent(inout) :: workspace
         type(level_t), intent(in) :: level
         integer, intent(in) :: capacity ! of the strips of the answer
         type(cost_t), intent(in) :: cost
-        type(settling_t), intent(inout) :: settling
+        type(attempt_t), intent(inout) :: attempt
         logical, intent(out) :: possible
 
         real(wp) :: narrowest
         integer :: n
 
         narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
-        call drop_slivers(narrowest, settling%patches)
-        possible = settling%patches%n > 0
+        call drop_slivers(narrowest, attempt%patches)
+        possible = attempt%patches%n > 0
         if (.not. possible) return
-        call position_strips(workspace, settling%patches, n)
+        call position_strips(workspace, attempt%patches, n)
         possible = n <= min(workspace%max_strips, capacity) &
                    .and. cost_work(cost) <= work_to_begin &
                    + most_steps*step_work(max(n, level%most_strips))
-        workspace%strips%penetration = settling%penetration
+        workspace%strips%penetration = attempt%penetration
     end subroutine position
 
     !> Solve for strips and ends together, and let overlaps join. It is done where nothing changes
     !> any more, or where there is no solution; then the patches are as before.
-    subroutine couple(workspace, compliance, demand, level, settling, strips, result, done)
+    subroutine couple(workspace, compliance, demand, level, attempt, strips, result, done)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
         type(level_t), intent(in) :: level
-        type(settling_t), intent(inout) :: settling
+        type(attempt_t), intent(inout) :: attempt
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
         logical, intent(out) :: done
@@ -361,75 +361,75 @@ contains
         integer :: outcome
         logical :: possible, changed
 
-        settling%settled = .false.
-        call position(workspace, level, size(strips%p0), result%cost, settling, possible)
+        attempt%converged = .false.
+        call position(workspace, level, size(strips%p0), result%cost, attempt, possible)
         done = .not. possible
         if (done) return
-        solved = settling%patches
+        solved = attempt%patches
         call converge(workspace, compliance, demand, level%tolerance, .false., solved, &
                       result%cost, outcome)
         result%passes = result%passes + 1
         done = outcome /= converged
         if (done) return
-        settling%patches = solved
-        settling%penetration = workspace%strips%penetration
-        call remember(workspace, settling%patches)
-        call part_ends(workspace, loose_end_tolerance, settling%patches, changed)
+        attempt%patches = solved
+        attempt%penetration = workspace%strips%penetration
+        call remember(workspace, attempt%patches)
+        call part_ends(workspace, loose_end_tolerance, attempt%patches, changed)
         if (changed) return
-        call join_overlaps(workspace, compliance, level, settling, changed)
+        call join_overlaps(workspace, compliance, level, attempt, changed)
         if (changed) return
         if (.not. level%near) then
             ! From afar patches were shared by what their widths seemed to be.
-            solved = settling%patches
-            call share_strips(level%strips_per_patch, settling%patches)
-            if (any(solved%at%n_strips /= settling%patches%at%n_strips)) return
+            solved = attempt%patches
+            call share_strips(level%strips_per_patch, attempt%patches)
+            if (any(solved%at%n_strips /= attempt%patches%at%n_strips)) return
         end if
-        call keep(workspace, settling, strips, result)
-        settling%settled = .true.
+        call keep(workspace, attempt, strips, result)
+        attempt%converged = .true.
         done = .true.
     end subroutine couple
 
     !> Strips leave: cut them off and share the others anew.
-    pure subroutine cut(workspace, level, settling, possible)
+    pure subroutine cut(workspace, level, attempt, possible)
         type(strip_workspace_t), intent(in) :: workspace
         type(level_t), intent(in) :: level
-        type(settling_t), intent(inout) :: settling
+        type(attempt_t), intent(inout) :: attempt
         logical, intent(out) :: possible ! is anything left, and has it not split too often?
 
         associate (now => workspace%strips)
             call cut_leaving_strips(now%y_left(:now%n), now%y_right(:now%n), now%leaves(:now%n), &
-                                    settling%patches, settling%splits)
+                                    attempt%patches, attempt%splits)
         end associate
-        possible = settling%patches%n > 0 .and. settling%splits <= max_splits_at_all
-        if (possible) call share_strips(level%strips_per_patch, settling%patches)
+        possible = attempt%patches%n > 0 .and. attempt%splits <= max_splits_at_all
+        if (possible) call share_strips(level%strips_per_patch, attempt%patches)
     end subroutine cut
 
     !> Let overlaps join the patches, which are shared anew if that changes them.
-    pure subroutine join_overlaps(workspace, compliance, level, settling, changed)
+    pure subroutine join_overlaps(workspace, compliance, level, attempt, changed)
         type(strip_workspace_t), intent(in) :: workspace
         real(wp), intent(in) :: compliance
         type(level_t), intent(in) :: level
-        type(settling_t), intent(inout) :: settling
+        type(attempt_t), intent(inout) :: attempt
         logical, intent(out) :: changed
 
-        call close_overlaps(workspace, compliance, settling%penetration, &
-                            .not. settling%in_doubt .and. settling%splits < max_splits, &
-                            settling%patches, changed)
-        if (changed) call share_strips(level%strips_per_patch, settling%patches)
+        call close_overlaps(workspace, compliance, attempt%penetration, &
+                            .not. attempt%in_doubt .and. attempt%splits < max_splits, &
+                            attempt%patches, changed)
+        if (changed) call share_strips(level%strips_per_patch, attempt%patches)
     end subroutine join_overlaps
 
     !> Keep a converged pass as the best one.
-    pure subroutine keep(workspace, settling, strips, result)
+    pure subroutine keep(workspace, attempt, strips, result)
         type(strip_workspace_t), intent(in) :: workspace
-        type(settling_t), intent(in) :: settling
+        type(attempt_t), intent(in) :: attempt
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
 
         real(wp) :: correction
 
-        call hand_over(workspace%strips, settling%patches, strips)
+        call hand_over(workspace%strips, attempt%patches, strips)
         correction = correction_of(strips%y_left(:strips%n), strips%y_right(:strips%n))
-        call summarize(strips, workspace%curve%h_lowest + correction*settling%penetration, &
+        call summarize(strips, workspace%curve%h_lowest + correction*attempt%penetration, &
                        correction, result)
     end subroutine keep
-end module faststrip_normal_strip_settle
+end module faststrip_normal_strip_level
