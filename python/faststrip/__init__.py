@@ -30,11 +30,16 @@ from ._profile import Gap, Profile, draw_profile, profile_gap
 from ._results import Elements, Result, Step, Strips
 from ._wear import Friction, StripWear, Wear, WearLaw
 from ._wheelset import RailState, WheelContact, Wheelset, WheelsetResult
+from .pair.contact import ContactResult, contact
+from .pair.creep_map import CreepMap, creep_map
+from .pair.sweep import SweepResult, sweep
 
 __all__ = [
     "Conicity",
     "Contact",
     "ContactFunctions",
+    "ContactResult",
+    "CreepMap",
     "Elements",
     "FaststripError",
     "Friction",
@@ -52,6 +57,7 @@ __all__ = [
     "Step",
     "StripWear",
     "Strips",
+    "SweepResult",
     "Wear",
     "WearLaw",
     "WheelContact",
@@ -60,7 +66,9 @@ __all__ = [
     "Wheelset",
     "WheelsetResult",
     "conicity",
+    "contact",
     "contact_functions",
+    "creep_map",
     "draw_profile",
     "fastsim",
     "hertz",
@@ -70,5 +78,6 @@ __all__ = [
     "plot_profiles",
     "profile_gap",
     "solve_many",
+    "sweep",
 ]
 __version__ = "0.1.0"

@@ -602,7 +602,7 @@ class Contact:
         """
         from ._plot import plot_contact
 
-        return plot_contact(self, figure)
+        return plot_contact(self.strips(), self.elements(), figure)
 
     def copy_from(self, other: "Contact") -> None:
         """Take over gap, solution and capacity of another contact, for a step taken back.

@@ -53,6 +53,20 @@ class ContactFunctions(Table):
     y_rail_left: Array
     _rows: ClassVar[str] = "y"
 
+    def conicity(self, amplitudes: npt.ArrayLike) -> Conicity:
+        """Equivalent conicity at some amplitudes.
+
+        Parameters
+        ----------
+        amplitudes : array_like, shape (m,)
+            mm.
+
+        Returns
+        -------
+        Conicity
+        """
+        return conicity(self.y, self.delta_r, amplitudes)
+
     def plot(self, axes: Any = None) -> Any:
         """Draw the rolling radius difference over the shift.
 
@@ -138,7 +152,8 @@ class Conicity(Table):
                           "amplitude, mm", r"equivalent conicity $\tan\gamma_e$")
 
 
-def contact_functions(wheel: Union[str, Profile], rail: Union[str, Profile], y: npt.ArrayLike, *,
+def contact_functions(wheel: Union[str, Profile], rail: Union[str, Profile],
+                      y: Optional[npt.ArrayLike] = None, *,
                       wheel_left: Union[None, str, Profile] = None,
                       rail_left: Union[None, str, Profile] = None, radius: float = 460.0,
                       radius_left: Optional[float] = None, back_spacing: Optional[float] = None,
@@ -152,8 +167,8 @@ def contact_functions(wheel: Union[str, Profile], rail: Union[str, Profile], y: 
     wheel, rail, wheel_left, rail_left, radius, radius_left, back_spacing, tread_line, gauge, \
 gauge_depth, rail_distance, inclination, cant
         As of a `Wheelset`.
-    y : array_like, shape (n,)
-        Shifts to the right, mm.
+    y : array_like, shape (n,), optional
+        Shifts to the right, mm; -10 to 10 in steps of 0.1 unless given.
     roll : bool
         Does the wheelset roll until both wheels touch? Unless told so each wheel comes down on its
         rail by itself, as the standard has it.
@@ -168,7 +183,7 @@ gauge_depth, rail_distance, inclination, cant
     FaststripError
         Where these are all.
     """
-    shifts = _row("y", y)
+    shifts = np.linspace(-10.0, 10.0, 201) if y is None else _row("y", y)
     setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
                                     back_spacing, tread_line, gauge, gauge_depth, rail_distance,
                                     inclination, cant)

@@ -100,7 +100,7 @@ class ManyResult(Shown):
     est_err_target: Array
     target_is_met: npt.NDArray[np.bool_]
     limitations: Whole
-    first_error: str = ""
+    first_error: str
 
     @property
     def shape(self) -> Tuple[int, ...]:
@@ -126,7 +126,7 @@ class ManyResult(Shown):
                 for status, count in zip(*np.unique(self.status, return_counts=True))}
 
     def _columns(self) -> Dict[str, Any]:
-        return {one.name: getattr(self, one.name) for one in fields(self)[:-1]}
+        return {one.name: getattr(self, one.name) for one in fields(ManyResult)[:-1]}
 
     def to_pandas(self) -> Any:
         """The figures as a table of pandas.
@@ -161,8 +161,11 @@ class ManyResult(Shown):
         xarray.Dataset
             The arrays, with ``units`` and ``long_name``.
         """
-        made = dataset({"word": self.word, **self._columns()},
-                       dims_of(dims, len(self.shape), "contact"), coords,
+        dims = dims_of(dims, len(self.shape), "contact")
+        # What is over a dimension of its name is a coordinate already.
+        columns = {name: values for name, values in self._columns().items()
+                   if name not in (coords or ())}
+        made = dataset({"word": self.word, **columns}, dims, coords,
                        {"first_error": self.first_error} if self.first_error else None)
         statuses = np.unique(self.status)
         made["status"].attrs.update(

@@ -16,7 +16,6 @@ from ._profile import Gap, Profile, draw_profile
 from ._tables import extra
 
 if TYPE_CHECKING:
-    from ._contact import Contact
     from ._results import Elements, Strips
 
 Array = npt.NDArray[np.float64]
@@ -27,23 +26,25 @@ Y_LABEL = "lateral $y$, mm"
 X_LABEL = "rolling direction $x$, mm"
 
 
-def _new_figure(width: float, height: float) -> Any:
+def new_figure(width: float, height: float) -> Any:
+    """A figure of that size, inches, in the style."""
     pyplot = extra("matplotlib.pyplot", "plot")
-    with _styled():
+    with styled():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
         figure.get_layout_engine().set(w_pad=0.12, h_pad=0.06)
         return figure
 
 
-def _styled() -> Any:
+def styled() -> Any:
+    """The style, as long as it is entered."""
     return extra("matplotlib", "plot").rc_context(style.PARAMETERS)
 
 
 @contextlib.contextmanager
 def _drawing(axes: Any, width: float = 4.6, height: float = 3.9) -> Iterator[Any]:
     """The axes of the caller, or new ones, in the style."""
-    with _styled():
-        yield _new_figure(width, height).subplots() if axes is None else axes
+    with styled():
+        yield new_figure(width, height).subplots() if axes is None else axes
 
 
 def _profile_axes(axes: Any, **aspect: Any) -> None:
@@ -53,16 +54,15 @@ def _profile_axes(axes: Any, **aspect: Any) -> None:
     axes.set(xlabel="$y$ to the field side, mm", ylabel="$z$ (down), mm")
 
 
-def plot_contact(contact: Contact, figure: Any = None) -> Any:
-    """The last contact: patch with pressures, pressures on the centre line, and tractions with the
+def plot_contact(strips: Strips, elements: Elements, figure: Any = None) -> Any:
+    """A contact: patch with pressures, pressures on the centre line, and tractions with the
     border of adhesion if there are elements."""
-    strips, elements = contact.strips(), contact.elements()
     if len(strips.p0) == 0:
         raise bad_argument("there is no contact to draw: solve one first")
     has_tractions = len(elements.x) > 0 and bool(np.any(elements.pn > 0.0))
-    with _styled():
+    with styled():
         if figure is None:
-            figure = _new_figure(11.6 if has_tractions else 7.8, 3.9)
+            figure = new_figure(11.6 if has_tractions else 7.8, 3.9)
         panels = figure.subplots(1, 3 if has_tractions else 2)
         draw_pressure(panels[0], strips)
         draw_centre_line(panels[1], strips)

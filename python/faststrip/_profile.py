@@ -296,7 +296,7 @@ def _choice(name: str, value: Any, choices: Dict[Any, Choice]) -> Choice:
     return choices[value]
 
 
-def _is_path(profile: Any) -> bool:
+def is_path(profile: Any) -> bool:
     """Is that the path of a file: by its form, or because there is one?"""
     return not isinstance(profile, str) or bool(
         pathlib.PurePath(profile).suffix or {"/", os.sep} & {*profile}
@@ -306,7 +306,7 @@ def _is_path(profile: Any) -> bool:
 def points_of(name: str, profile: Any, kind: str) -> Points:
     """A profile as the library takes it: a name, or points that have to be kept."""
     if isinstance(profile, (str, os.PathLike)):
-        if str(profile).lower() not in NAMES[kind] and _is_path(profile):
+        if str(profile).lower() not in NAMES[kind] and is_path(profile):
             raise refused(name, f"a Profile of a {kind} or a name ({', '.join(NAMES[kind])}); "
                           "Profile.read(path) reads one from a file", profile)
         return Points(str(profile).encode("ascii", "replace"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from typing import Any, ClassVar, Dict, Iterator, Mapping, TypeVar
 
 import numpy as np
@@ -11,12 +12,14 @@ from ._catalogue import PLAIN, QUANTITIES
 from ._tables import dataset, frame
 
 Self = TypeVar("Self", bound="Record")
-# Arrays of more numbers are told by their size and range.
+# Arrays of more numbers are shown by their size and range, tuples of more by their length alone.
 MOST_SHOWN = 6
+# Characters of a text, and of one value in it, with all that is behind left out.
+MOST_TEXT, MOST_OF_ONE = 1350, 120
 
 
 class Shown:
-    """A dataclass whose text tells of long arrays size and range alone."""
+    """A dataclass whose text is short: of long arrays it has size and range alone."""
 
     __dataclass_fields__: ClassVar[Dict[str, Any]]
 
@@ -28,18 +31,33 @@ class Shown:
     def __repr__(self) -> str:
         found = [f"{one.name}={_shown(getattr(self, one.name))}"
                  for one in dataclasses.fields(self) if one.repr]
-        return f"{type(self).__qualname__}({', '.join(found)})"
+        ends = itertools.accumulate(len(text) + 2 for text in found)
+        shown = [text for text, end in zip(found, ends) if end <= MOST_TEXT]
+        if len(shown) < len(found):
+            shown.append(f"... {len(found) - len(shown)} more")
+        return f"{type(self).__qualname__}({', '.join(shown)})"
 
 
 def _shown(value: Any) -> str:
-    if not isinstance(value, np.ndarray):
-        return repr(value)
-    if value.size <= MOST_SHOWN:
-        return repr(value.tolist())
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, np.ndarray):
+        return _shown(value.tolist()) if value.size <= MOST_SHOWN else _range_of(value)
+    if isinstance(value, (tuple, list)):
+        if len(value) > MOST_SHOWN or any(isinstance(one, Shown) for one in value):
+            return f"<{len(value)} {type(value[0]).__name__}>"
+        ends = "()" if isinstance(value, tuple) else "[]"
+        return ends[0] + ", ".join(map(_shown, value)) + ends[1]
+    text = repr(value)
+    return text if len(text) <= MOST_OF_ONE else f"{text[:MOST_OF_ONE]}..."
+
+
+def _range_of(value: Any) -> str:
     shape = " x ".join(map(str, value.shape))
+    kind = "" if value.dtype == np.float64 else f" {value.dtype}"
     numbers = value[np.isfinite(value)]
-    return f"<{shape} {value.dtype}" + (
-        f" from {numbers.min():.6g} to {numbers.max():.6g}>" if numbers.size else ">")
+    ends = f" from {numbers.min():.6g} to {numbers.max():.6g}" if numbers.size else ""
+    return f"<{shape}{kind}{ends}>"
 
 
 # What a docstring says of the kind of a field, by its annotation.

@@ -6,7 +6,7 @@ pandas and xarray are asked for only where a table of theirs is.
 from __future__ import annotations
 
 import importlib
-from typing import Any, Mapping, Optional, Sequence
+from typing import Any, Dict, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -44,15 +44,16 @@ def dims_of(dims: Optional[Sequence[str]], n: int, what: str) -> Sequence[str]:
     return dims
 
 
+def about(name: str) -> Dict[str, str]:
+    """Unit and meaning of a column, if it has them, as attributes of xarray."""
+    return dict(zip(("units", "long_name"), QUANTITIES.get(name, ())))
+
+
 def dataset(columns: Mapping[str, Any], dims: Sequence[str],
             coords: Optional[Mapping[str, Any]] = None,
             attributes: Optional[Mapping[str, Any]] = None) -> Any:
     """An xarray Dataset of arrays of the same dimensions, with ``units`` and ``long_name``."""
     xarray = extra("xarray", "to_xarray")
-    variables = {}
-    for name, values in columns.items():
-        about = {}
-        if name in QUANTITIES:
-            about["units"], about["long_name"], _ = QUANTITIES[name]
-        variables[name] = (tuple(dims), np.asarray(values), about)
+    variables = {name: (tuple(dims), np.asarray(values), about(name))
+                 for name, values in columns.items()}
     return xarray.Dataset(variables, coords=coords, attrs=dict(attributes or {}))
