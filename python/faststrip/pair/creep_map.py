@@ -166,7 +166,7 @@ def creep_map(wheel: Body, rail: Body, y: float = 0.0, *,
     demand = demand_of(vertical_load, load, penetration)
     given = {"longitudinal": longitudinal, "lateral": lateral, "spin": spin}
     rows = {name: row(name, value) for name, value in given.items()
-            if value is not None and np.ndim(value) != 0}  # type: ignore[arg-type]
+            if value is not None and np.ndim(value) != 0}
     if not rows:
         raise bad_argument("one of longitudinal, lateral and spin must be an array, got none")
     y, value = numbers(("y", demand.name), (y, demand.value))
