@@ -7,7 +7,8 @@ import sys
 from cli_program import ROOT, LabTest, ProgramTest
 
 CASES = ROOT / "example" / "cases"
-MADE = ["worn_wheel.txt", "worn_wheel.whl", "near_conformal.csv", "polymer_roller.csv"]
+MADE = ["worn_wheel.txt", "worn_wheel.whl", "worn_rail.ban", "near_conformal.csv",
+        "polymer_roller.csv"]
 
 
 class Examples(ProgramTest):

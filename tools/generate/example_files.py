@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Make the wheel profile and the gaps that the cases of example/cases read.
+"""Make the profiles and the gaps that cases of example/cases and pages read.
 
     bin/faststrip contact example/cases/tread_straight.nml -o out/tread.csv --profiles out/p.csv
     python3 tools/generate/example_files.py out/p.csv example/cases
 
-They are made up, not measured: an S1002 worn hollow, two arcs that nearly conform, a crowned
-roller on a flat rail.
+They are made up, not measured: an S1002 worn hollow, a 60E1 worn at its gauge corner, two arcs that
+nearly conform, a crowned roller on a flat rail.
 """
 
 import csv
@@ -18,6 +18,9 @@ S1002_FIRST_MM = -70.0  # where the profile begins, towards the flange
 
 HOLLOW_MM, HOLLOW_WIDTH_MM, HOLLOW_PLACE_MM = 1.6, 16.0, 4.0
 
+CORNER_MM, CORNER_WIDTH_MM, CORNER_PLACE_MM = 0.8, 9.0, -28.0
+RAIL_STEP_MM = 0.4  # between points along the rail
+
 TAPE_CIRCLE_MM = 70.0  # from the back of the flange
 
 WHEEL_ARC_MM, RAIL_ARC_MM, WHEEL_RADIUS_MM = 330.0, 300.0, 460.0
@@ -25,11 +28,15 @@ WHEEL_ARC_MM, RAIL_ARC_MM, WHEEL_RADIUS_MM = 330.0, 300.0, 460.0
 CROWN_MM, ROLLER_MM, ROLLER_HALF_WIDTH_MM, EDGE_MM = 150.0, 100.0, 20.0, 5.0
 
 
-def read_s1002(path):
-    """Wheel points of the program's `--profiles`, in the wheel's own frame."""
+def read_points(path, body):
+    """Points of the program's `--profiles`, in the rail's frame."""
     with open(path, encoding="utf-8") as lines:
         rows = csv.DictReader(line for line in lines if not line.startswith("#"))
-        points = [(float(r["y_mm"]), float(r["z_mm"])) for r in rows if r["body"] == "wheel"]
+        return [(float(r["y_mm"]), float(r["z_mm"])) for r in rows if r["body"] == body]
+
+
+def s1002_of(points):
+    """Wheel points in the wheel's own frame."""
     shift = points[0][0] - S1002_FIRST_MM
     tread = interpolated(points, shift)
     return [(y - shift, z - tread) for y, z in points]
@@ -47,6 +54,15 @@ def worn_wheel(points):
         y = 0.5 * i
         hollow = HOLLOW_MM * math.exp(-(((y - HOLLOW_PLACE_MM) / HOLLOW_WIDTH_MM) ** 2))
         yield y, interpolated(points, y) - hollow
+
+
+def worn_rail(points):
+    """A corner that is worn on the gauge side, from the field side on, as it lies in the track."""
+    last = None
+    for y, z in reversed(points):
+        if last is None or math.dist(last, (y, z)) >= RAIL_STEP_MM:
+            last = y, z
+            yield y, z + CORNER_MM * math.exp(-(((y - CORNER_PLACE_MM) / CORNER_WIDTH_MM) ** 2))
 
 
 def near_conformal():
@@ -76,8 +92,9 @@ def write(path, header, rows, separator):
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    points, folder = read_s1002(sys.argv[1]), Path(sys.argv[2])
-    worn = list(worn_wheel(points))
+    folder = Path(sys.argv[2])
+    worn = list(worn_wheel(s1002_of(read_points(sys.argv[1], "wheel"))))
+    rail = list(worn_rail(read_points(sys.argv[1], "rail")))
     origin = "# made by tools/generate/example_files.py: "
     columns = "y_mm,h_mm,inv2R_per_mm"
     write(folder / "worn_wheel.txt",
@@ -87,6 +104,12 @@ def main():
           ["ProgramName=tools/generate/example_files.py", "Comment=S1002 worn hollow, made up",
            "ColumnDef=X,Y", f"XYPoints={len(worn)}", ""],
           [(round(y + TAPE_CIRCLE_MM, 2), round(z, 2)) for y, z in worn], " ")
+    # x to the gauge side, y up.
+    write(folder / "worn_rail.ban",
+          ["ProgramName=tools/generate/example_files.py",
+           "Comment=60E1 worn at the gauge corner, made up", "ColumnDef=X,Y",
+           f"XYPoints={len(rail)}", ""],
+          [(round(-y, 2), round(-z, 2)) for y, z in rail], " ")
     write(folder / "near_conformal.csv", [origin + "radii 330 and 300 mm", columns],
           near_conformal(), ",")
     write(folder / "polymer_roller.csv", [origin + "roller of 100 mm, crown 150 mm", columns],

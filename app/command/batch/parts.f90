@@ -22,9 +22,11 @@ module faststrip_command_batch_parts
 
     !> For the table of a subcommand.
     type(option_t), parameter :: part_options(3) = [ &
-        option_t('--part', 'k/K', 'only part k of K, with a manifest beside it; see merge'), &
+        option_t('--part', 'k/K', 'only part k of K, with a manifest beside it; see merge:' &
+                 // new_line('a') // 'for array jobs, whose tasks run at any time'), &
         option_t('--parts', 'K', 'K parts, shared with whatever other processes do the' &
-                 // new_line('a') // 'same; who makes the last one joins them'), &
+                 // new_line('a') // 'same; who makes the last one joins them: for processes' &
+                 // new_line('a') // 'that run together, of shells, srun or mpirun'), &
         option_t('--resume', '', 'go on with what an ended run has left')]
 
     !> What was asked for.
