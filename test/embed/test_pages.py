@@ -23,11 +23,13 @@ class Docstrings(HostTest):
     def test_the_examples_of_all_modules(self):
         """Every module that has examples, whatever it is called."""
         found = 0
-        for path in sorted((ROOT / "python" / "faststrip").glob("*.py")):
+        python = ROOT / "python"
+        for path in sorted((python / "faststrip").rglob("*.py")):
             if ">>> " not in path.read_text(encoding="utf-8"):
                 continue
             found += 1
-            module = "faststrip" if path.stem == "__init__" else f"faststrip.{path.stem}"
+            module = ".".join(path.relative_to(python).with_suffix("").parts)
+            module = module.removesuffix(".__init__")
             with self.subTest(module):
                 self.shell(f"'{sys.executable}' -c 'import doctest, sys, {module}; "
                            f"found = doctest.testmod(sys.modules[\"{module}\"]); "

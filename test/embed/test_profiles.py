@@ -381,12 +381,11 @@ class Python(HostTest):
         for result in results:
             text = repr(result)
             self.assertEqual(text.count("\n"), 0)
-            self.assertLess(len(text), 2500)
-            self.assertRegex(text, r"=<\d+ float64 from \S+ to \S+>")
+            self.assertRegex(text, r"=<\d+ from \S+ to \S+>")
         self.assertIn("force=[[", repr(wheelset.solve(axle_load=1e5)))
         self.assertNotIn("\n", repr(wheelset.solve(axle_load=1e5)))
-        self.assertEqual(repr(faststrip.Profile([0.0, 1.0], [0.0, float("nan")]))[:39],
-                         "Profile(y=[0.0, 1.0], z=[0.0, nan], kin")
+        self.assertEqual(repr(faststrip.Profile([0.0, 1.0], [0.0, float("nan")]))[:35],
+                         "Profile(y=[0, 1], z=[0, nan], kind=")
 
     def test_profiles_are_drawn(self):
         faststrip = self.import_package()

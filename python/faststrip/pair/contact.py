@@ -56,8 +56,10 @@ class ContactResult(Result, Placed):
         The same; empty where a method has none.
     limitations : tuple of str
         As of a `Result`, as are the others.
-    status, word, target_is_met, steps, derivatives
-        There are no derivatives.
+    status, word, target_is_met, steps
+        As well.
+    derivatives : ndarray of float, or None
+        There are none: take a `Contact`.
     """
 
     def _columns(self) -> Dict[str, Any]:
@@ -144,7 +146,7 @@ def contact(wheel: Body, rail: Body, y: float = 0.0, *, vertical_load: Optional[
     --------
     >>> found = contact("s1002", "60e1", y=3.0, vertical_load=80e3)
     >>> found.word, round(found.fx / 1e3, 2), round(found.fy / 1e3, 2)
-    ('ok', -9.52, -5.43)
+    ('ok', -9.86, -5.58)
     """
     pair = Pair("contact", wheel, rail, inclination, wheel_radius, options)
     demand = demand_of(vertical_load, load, penetration)

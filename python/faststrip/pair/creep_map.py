@@ -160,7 +160,7 @@ def creep_map(wheel: Body, rail: Body, y: float = 0.0, *,
     >>> found = creep_map("s1002", "60e1", y=3.0, vertical_load=80e3,
     ...                   longitudinal=[-1e-3, 0.0, 1e-3], lateral=[0.0, 2e-3])
     >>> found.axes, (found.fx / 1e3).round(1).tolist()
-    (('cksi', 'ceta'), [[9.5, 7.8], [0.2, -0.0], [-9.4, -7.9]])
+    (('cksi', 'ceta'), [[9.6, 7.6], [0.1, -0.0], [-9.7, -7.7]])
     """
     pair = Pair("creep_map", wheel, rail, inclination, wheel_radius, options)
     demand = demand_of(vertical_load, load, penetration)
