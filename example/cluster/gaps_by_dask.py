@@ -17,10 +17,9 @@ from collections.abc import Iterator
 from typing import Any
 
 import dask.distributed
+import faststrip
 import numpy as np
 import pandas
-
-import faststrip
 
 LOADS = np.linspace(4e4, 1.2e5, 9)  # vertical, N
 CREEPAGES = np.linspace(-5e-3, 5e-3, 11)  # longitudinal
