@@ -48,7 +48,8 @@
                 reference/stored.csv); everything has to be committed before, some minutes
   report [...]  build, then measure, judge and draw everything; in out/report/ (--quick: less)
   install --prefix FOLDER
-                build, then install program, library, modules, header, man page there
+                build, then install program, library, modules, header, man page and completion
+                for shells there
   fmu [FILE...] make the functional mock-up units of a wheelset, FMI 2.0 and 3.0, for other
                 simulators, with these profile files in them; in out/fmu/
   package       make the Python package for pip, with the library in it, and its source

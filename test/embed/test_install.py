@@ -310,6 +310,49 @@ class Installed(HostTest):
             self.assertEqual(done.stderr, "")
             self.assertIn("--strips-per-patch", done.stdout)
 
+    def completed(self, *words):
+        """What bash offers for the last of the words of a line."""
+        script = self.installed.prefix / "share" / "bash-completion" / "completions" / "faststrip"
+        line = ' '.join(f"'{word}'" for word in words)
+        # `compopt` is for bash's own calls alone.
+        return command("bash", "-euc", f". '{script}'; compopt() {{ :; }}; COMP_WORDS=({line}); "
+                       f"COMP_CWORD={len(words) - 1}; _faststrip; "
+                       'printf "%s\\n" "${COMPREPLY[@]}"').split()
+
+    def test_bash_completes_commands_options_and_methods(self):
+        program = self.installed.prefix / "bin" / "faststrip"
+        commands = subcommands(program)
+        self.assertEqual(self.completed("faststrip", ""), [*commands, "--version"])
+        for name in commands:
+            options = re.findall(r"^  (-\S+)", command(program, name, "--help"), re.MULTILINE)
+            self.assertEqual(self.completed("faststrip", name, "-"), options)
+        self.assertEqual(self.completed("faststrip", "contact", "--normal", "kp"),
+                         ["kpec", "kpec_strips"])
+        self.assertIn("join", self.completed("faststrip", "lookup", ""))
+        self.assertEqual(self.completed("faststrip", "lookup", "make", "--th"), ["--threads"])
+        # Files are bash's own.
+        self.assertEqual(self.completed("faststrip", "contact", "-o", ""), [])
+        self.assertEqual(self.completed("faststrip", "contact", ""), [])
+
+    def test_other_shells_know_the_same_commands_and_options(self):
+        share = self.installed.prefix / "share"
+        program = self.installed.prefix / "bin" / "faststrip"
+        zsh = (share / "zsh" / "site-functions" / "_faststrip").read_text(encoding="utf-8")
+        fish = (share / "fish" / "vendor_completions.d" / "faststrip.fish").read_text(
+            encoding="utf-8")
+        for name in subcommands(program):
+            self.assertIn(f"'{name}')\n", zsh)
+            self.assertIn(f" -f -a {name} -d '", fish)
+            of_zsh = zsh.split(f"'{name}')\n")[1].split(" ;;\n")[0]
+            for flag in re.findall(r"^  (-\S+)", command(program, name, "--help"), re.MULTILINE):
+                self.assertIn(f"'{flag}[", of_zsh)
+                long = re.escape(flag.lstrip("-"))
+                self.assertRegex(fish, rf"from {name}(; and not .*)?' -[ls] {long} ")
+        for shell, path in (("zsh", share / "zsh/site-functions/_faststrip"),
+                            ("fish", share / "fish/vendor_completions.d/faststrip.fish")):
+            if shutil.which(shell):
+                command(shell, "-n", path)
+
     def test_wrong_usage_is_refused(self):
         for words in ((), ("--prefix",), ("--prefix", ""), ("/usr",)):
             done = subprocess.run([ROOT / "run", "install", *words], stdout=subprocess.PIPE,

@@ -14,6 +14,7 @@ import tomllib
 import unittest
 import zipfile
 
+import blocks
 from installed import ROOT
 
 MOST_BYTES = 5 * 1024**2
@@ -64,6 +65,12 @@ class Package(unittest.TestCase):
             if (numpy.parent / name).exists():
                 (site / name).symlink_to(numpy.parent / name)
         cls.site = site
+        # The same beside what `faststrip[plot]` brings along.
+        cls.drawing = cls.folder / "drawing"
+        cls.drawing.mkdir()
+        for each in numpy.parent.iterdir():
+            if not each.name.startswith(("faststrip", "__editable__")):
+                (cls.drawing / each.name).symlink_to(each)
 
     @classmethod
     def command(cls, *words, **environment):
@@ -75,14 +82,39 @@ class Package(unittest.TestCase):
             raise AssertionError(f"{words}: {done.returncode}\n{done.stdout}{done.stderr}")
         return done.stdout
 
-    def without_compiler(self, text):
+    def without_compiler(self, text, **more):
         """What Python says where PATH has nothing and nothing names another library."""
         nothing = self.folder / "nothing"
         nothing.mkdir(exist_ok=True)
         return subprocess.run([self.python, "-c", text], cwd=nothing, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, encoding="utf-8", check=False,
                               env={"PATH": str(nothing), "HOME": str(nothing),
-                                   "OPENBLAS_NUM_THREADS": "1"})
+                                   "OPENBLAS_NUM_THREADS": "1", **more})
+
+    def drawn(self, text):
+        """What Python prints where the packages of `faststrip[plot]` are, too."""
+        done = self.without_compiler(text, PYTHONPATH=str(self.drawing), MPLBACKEND="Agg")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def test_python_of_the_readme_runs(self):
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        programs = [block.text for block in blocks.blocks_of(text) if block.language == "python"]
+        self.assertGreater(len(programs), 0)
+        for program in programs:
+            self.assertTrue(self.drawn(program))
+
+    def test_a_profile_is_read_and_drawn(self):
+        name = ROOT / "example" / "cases" / "worn_wheel.whl"
+        printed = self.drawn(
+            "import faststrip\n"
+            f"wheel = faststrip.Profile.read({str(name)!r}, smooth_wavelength=5)\n"
+            "faststrip.plot_profiles(wheel, '60e1', shift=1.0).figure.savefig('worn.png')\n"
+            "print(faststrip.__file__)\n")
+        self.assertTrue(printed.startswith(str(self.site)), printed)
+        picture = (self.folder / "nothing" / "worn.png").read_bytes()
+        self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertGreater(len(picture), 10_000)
 
     def test_a_first_contact_where_there_is_no_compiler(self):
         done = self.without_compiler(FIRST_CONTACT)

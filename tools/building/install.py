@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Install faststrip below a prefix: program, library, modules, header, man page, what tells
-pkg-config and CMake about them, and the scripts that draw for --plot.
+"""Install faststrip below a prefix: program, library, modules, header, man page, completion for
+shells, what tells pkg-config and CMake about them, and the scripts that draw for --plot.
 
     install.py --stage FOLDER --program FILE --prefix FOLDER
 
@@ -31,6 +31,7 @@ import subprocess
 import sys
 import tomllib
 
+from completion import completions
 from man_page import man_page
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -246,9 +247,11 @@ def main():
     for source, target in copies + tuple(plots):
         (prefix / target).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(source, prefix / target)
-    page = prefix / "share" / "man" / "man1" / "faststrip.1"
-    page.parent.mkdir(parents=True, exist_ok=True)
-    page.write_text(man_page(prefix / "bin" / "faststrip", version), encoding="utf-8")
+    program = prefix / "bin" / "faststrip"
+    texts = {"share/man/man1/faststrip.1": man_page(program, version), **completions(program)}
+    for name, text in texts.items():
+        (prefix / name).parent.mkdir(parents=True, exist_ok=True)
+        (prefix / name).write_text(text, encoding="utf-8")
     install_library(options.stage, prefix, version)
     run_time = run_time_libraries()
     about = {"prefix": prefix, "version": version, "major": version.split(".")[0],

@@ -1,21 +1,25 @@
 #!/usr/bin/env python3
-"""Make the source distribution of the Python package, its wheel from that, and one for other
-machines, with the run-time libraries of Fortran in it.
+"""Make the source distribution of the Python package, its wheel from that, one for other machines,
+with the run-time libraries of Fortran in it, and recipes for conda and Spack.
 
     package.py --folder FOLDER [--fast]
 
-FOLDER then holds faststrip-N.tar.gz, and the wheel for machines whose C library is not older than
-this one's. --fast: without optimization, for tests.
+FOLDER then holds faststrip-N.tar.gz, the wheel for machines whose C library is not older than this
+one's, and in conda/ and spack/ the recipes of tools/packaging, which build from that very
+faststrip-N.tar.gz. --fast: without optimization, for tests.
 """
 
 import argparse
+import hashlib
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+RECIPES = ROOT / "tools" / "packaging"
 PROGRAMS = pathlib.Path(sys.executable).parent
 MOST_BYTES = 5 * 1024**2
 
@@ -48,6 +52,22 @@ def make(folder, fast):
     return the_one(folder, "*.tar.gz"), plain, the_one(folder / "repaired", "*.whl")
 
 
+def write_recipes(folder, source):
+    """The recipes, for this source distribution."""
+    filled = {"@VERSION@": source.name.removeprefix("faststrip-").removesuffix(".tar.gz"),
+              "@SHA256@": hashlib.sha256(source.read_bytes()).hexdigest()}
+    for kind in RECIPES.iterdir():
+        shutil.rmtree(folder / kind.name, ignore_errors=True)
+    for path in RECIPES.rglob("*.*"):
+        if path.suffix in (".py", ".yaml"):
+            text = path.read_text(encoding="utf-8")
+            for mark, value in filled.items():
+                text = text.replace(mark, value)
+            target = folder / path.relative_to(RECIPES)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(text, encoding="utf-8")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -67,6 +87,7 @@ def main():
             print(f"{path.name}: {size / 1e6:.1f} MB")
             if size > MOST_BYTES:
                 sys.exit(f"package: {path.name} must have at most {MOST_BYTES} bytes, got {size}")
+    write_recipes(folder, folder / source.name)
 
 
 if __name__ == "__main__":
