@@ -806,6 +806,7 @@ def lists():
         do(sys.executable, f"tools/generate/{tool}.py", "bin/faststrip")
     do(sys.executable, "tools/generate/f77_arguments.py")
     do(sys.executable, "tools/check/constants.py")
+    do(sys.executable, "tools/generate/parity.py")
 
 
 def net(*words):

@@ -109,7 +109,7 @@ class Package(unittest.TestCase):
         printed = self.drawn(
             "import faststrip\n"
             f"wheel = faststrip.Profile.read({str(name)!r}, smooth_wavelength=5)\n"
-            "faststrip.plot_profiles(wheel, '60e1', shift=1.0).figure.savefig('worn.png')\n"
+            "faststrip.plot_profiles(wheel, '60e1').figure.savefig('worn.png')\n"
             "print(faststrip.__file__)\n")
         self.assertTrue(printed.startswith(str(self.site)), printed)
         picture = (self.folder / "nothing" / "worn.png").read_bytes()

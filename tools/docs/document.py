@@ -49,6 +49,8 @@ GROUPS = (
         ("Method", "docs/method.md"),
         ("Validation", "docs/validation.md"),
         ("Constants", "docs/constants.md"),
+        ("Parity with other codes", "docs/parity.md"),
+        ("Paper", "docs/paper.md"),
         ("Architecture", "docs/architecture.md"),
         ("Extending", "docs/extending.md"),
         ("References", "reference/README.md"))),
