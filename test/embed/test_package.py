@@ -2,6 +2,7 @@
 installed where there is no compiler."""
 
 import email
+import hashlib
 import importlib
 import os
 import pathlib
@@ -13,6 +14,8 @@ import tempfile
 import tomllib
 import unittest
 import zipfile
+
+import yaml
 
 import blocks
 from installed import ROOT
@@ -184,6 +187,38 @@ class Package(unittest.TestCase):
         self.assertEqual(folders, {"include", "python", "src", "tools"})
         self.assertEqual({name.split("/")[1] for name in names if name.startswith("src/")},
                          {"faststrip", "files"})
+
+    def test_recipes_build_from_that_source_distribution(self):
+        sum_of = hashlib.sha256(self.source.read_bytes()).hexdigest()
+        texts = {path.relative_to(self.folder).as_posix(): path.read_text(encoding="utf-8")
+                 for kind in ("conda", "spack") for path in (self.folder / kind).rglob("*")
+                 if path.is_file()}
+        spack = "spack/spack_repo/faststrip"
+        self.assertEqual(set(texts), {"conda/recipe.yaml", f"{spack}/repo.yaml",
+                                      f"{spack}/packages/faststrip/package.py"})
+        self.assertNotRegex("".join(texts.values()), r"@[A-Z]+\d*@")
+        recipe = yaml.safe_load(texts["conda/recipe.yaml"])
+        self.assertEqual((recipe["context"]["version"], recipe["source"]["sha256"]),
+                         (self.version, sum_of))
+        self.assertEqual((self.folder / "conda" / recipe["source"]["path"].replace(
+            "${{ version }}", self.version)).resolve(), self.source.resolve())
+        # Of Spack's the two names that it gives are enough to find the file.
+        recipe = texts[f"{spack}/packages/faststrip/package.py"]
+        self.assertIn(f'version("{self.version}", sha256="{sum_of}")', recipe)
+        place = re.search(r'url = (f"file://.*")', recipe)[1]
+        path = self.folder / spack / "packages" / "faststrip" / "package.py"
+        url = eval(place, {"pathlib": pathlib, "__file__": str(path)})
+        self.assertEqual(url, f"file://{self.source.resolve()}")
+
+    def test_cmake_finds_all_it_needs_in_the_source_distribution(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with tarfile.open(self.source) as archive:
+                archive.extractall(folder, filter="data")
+            self.command("cmake", "-S", pathlib.Path(folder, self.source.name[:-len(".tar.gz")]),
+                         "-B", f"{folder}/build", "-DFASTSTRIP_OWN_LAPACK=ON")
+            rules = pathlib.Path(folder, "build", "cmake_install.cmake").read_text(encoding="utf-8")
+            for path in re.findall(rf'"({re.escape(folder)}/faststrip-[^"]+)"', rules):
+                self.assertTrue(pathlib.Path(path).exists(), path)
 
     def test_only_what_is_needed_is_imported(self):
         modules = self.command(self.python, "-c", MODULES).split()

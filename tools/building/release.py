@@ -8,9 +8,9 @@ CITATION.cff, the measured figures in the documents, the stamps of the stored re
 everything is committed and not yet tagged. What is wrong is told in one line each, and then nothing
 is made.
 
-out/release then holds the source distribution and the wheel of out/package, the sources with the
-site of out/docs in doc/ (faststrip-N-source.tar.gz), and SHA256SUMS. At the end stands what a
-person has to do. `./run release` checks, makes site and package, and calls this.
+out/release then holds the source distribution, the wheel and the recipes of out/package, the
+sources with the site of out/docs in doc/ (faststrip-N-source.tar.gz), and SHA256SUMS. At the end
+stands what a person has to do. `./run release` checks, makes site and package, and calls this.
 """
 
 import argparse
@@ -44,6 +44,8 @@ what remains, for a person:
 - read CHANGELOG.md as somebody who has not worked on it
 - git tag -a v{version} -m 'faststrip {version}', and push the tag
 - upload the .whl and faststrip-{version}.tar.gz to PyPI; put all of out/release at the tag's page
+- in the recipes of conda and Spack the path of faststrip-{version}.tar.gz becomes its address; then
+  they can be offered to conda-forge and to Spack
 - the archive's DOI, if there is one, into CITATION.cff
 - a new [Unreleased] in CHANGELOG.md
 """
@@ -196,10 +198,12 @@ def make(version):
         shutil.copy(found[0], FOLDER)
     if not (SITE / "index.html").is_file():
         sys.exit("release: the site must be in out/docs, there is no index.html")
+    for kind in ("conda", "spack"):
+        shutil.copytree(PACKAGE / kind, FOLDER / kind)
     source_archive(FOLDER / f"faststrip-{version}-source.tar.gz", f"faststrip-{version}")
-    made = sorted(FOLDER.iterdir())
-    sums = "".join(f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n"
-                   for path in made)
+    made = sorted(path for path in FOLDER.rglob("*") if path.is_file())
+    sums = "".join(f"{hashlib.sha256(path.read_bytes()).hexdigest()}"
+                   f"  {path.relative_to(FOLDER).as_posix()}\n" for path in made)
     (FOLDER / "SHA256SUMS").write_text(sums, encoding="utf-8")
     for path in made:
         print(f"{path.name}: {path.stat().st_size / 1e6:.1f} MB")

@@ -28,7 +28,8 @@ API = ("Fortran interface", "interface.md")
 GROUPS = (
     ("Begin", (
         ("faststrip", "README.md"),
-        ("Start here", "docs/start.md"))),
+        ("Start here", "docs/start.md"),
+        ("Installation", "docs/install.md"))),
     ("Tutorials", (
         ("A worn wheel", "docs/tutorial_worn_wheel.md"),
         ("Through a curve", "docs/tutorial_curve.md"),
@@ -59,6 +60,8 @@ GROUPS = (
         ("Changes", "CHANGELOG.md"))),
 )
 PAGES = tuple(page for _, pages in GROUPS for page in pages if page != API)
+# What stands before a paper, whose sections are headings of the first level.
+FRONT = re.compile(r"---\n.*?^title: '(?P<title>[^']*)'$.*?^---\n", re.MULTILINE | re.DOTALL)
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//|(?:mailto|data):")
 # A length that is asked with several arguments.
 LENGTH = re.compile(r"\b(character\(len=)(\w+)\([^()]*,[^()]*\)\)", re.IGNORECASE)
@@ -160,6 +163,8 @@ def for_sphinx(text, source):
 
     text = PICTURE.sub(figure, text)
     text = FILE.sub(r"`\g<name>`:\n", text)
+    if front := FRONT.match(text):
+        text = f"# {front['title']}\n" + re.sub("^#", "##", text[front.end():], flags=re.MULTILINE)
     if source != "README.md":
         return text
     for name, pages in GROUPS:

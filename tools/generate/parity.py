@@ -5,8 +5,8 @@ reference/parity.toml, or check that it is up to date.
     parity.py [--check]
 
 A state without a source, a word that is none of the states, and evidence that does not exist are
-errors: a test, as FILE::NAME, must be in its file. With --check nothing is written; the exit code is
-1 if something would be.
+errors: a test, as FILE::NAME, must be in its file. With --check nothing is written; the exit code
+is 1 if something would be.
 """
 
 import argparse

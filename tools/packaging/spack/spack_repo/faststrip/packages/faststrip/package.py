@@ -1,5 +1,5 @@
-"""The library of faststrip for Spack, built by CMake from the source distribution, which lies beside
-the folder `spack`. `./run package` fills in version and sum."""
+"""The library of faststrip for Spack, built by CMake from the source distribution, which lies
+beside the folder `spack`. `./run package` fills in version and sum."""
 
 import pathlib
 
