@@ -316,7 +316,7 @@ class Installed(HostTest):
         line = ' '.join(f"'{word}'" for word in words)
         # `compopt` is for bash's own calls alone.
         return command("bash", "-euc", f". '{script}'; compopt() {{ :; }}; COMP_WORDS=({line}); "
-                       f"COMP_CWORD={len(words) - 1}; _faststrip; "
+                       f"COMP_CWORD={len(words) - 1}; _faststrip || :; "
                        'printf "%s\\n" "${COMPREPLY[@]}"').split()
 
     def test_bash_completes_commands_options_and_methods(self):
