@@ -28,7 +28,8 @@ API = ("Fortran interface", "interface.md")
 GROUPS = (
     ("Begin", (
         ("faststrip", "README.md"),
-        ("Start here", "docs/start.md"))),
+        ("Start here", "docs/start.md"),
+        ("Choosing a method", "docs/choosing.md"))),
     ("Tutorials", (
         ("A worn wheel", "docs/tutorial_worn_wheel.md"),
         ("Through a curve", "docs/tutorial_curve.md"),

@@ -43,11 +43,16 @@ SPEED = "reference/speed.csv"
 PAINTED = "reference/page.csv"
 SCALE = "reference/scale.csv"
 SPREAD = ("median", "p95", "worst")
-# What the README tells of it.
+# What docs/choosing.md shows of it.
 TAILS = (("normal", "strips in KPEC 15"), ("normal", "strips 15"),
          ("warm step, 15 strips", "load 2.5 %"), ("tangential", "FASTSIM 50x50"),
          ("tangential", "FASTSTRIP 15x15"), ("wheelset", "cold start"),
          ("batch", "row, new gap"))
+# What docs/choosing.md compares: solutions of `trade`, with their methods in `scale`.
+CHOICES = (("Hertz + Polach", "hertz + polach"), ("Hertz + FASTSIM 50x50", "hertz + fastsim"),
+           ("strips 15 + FASTSIM 50x50", None), ("strips + FASTSTRIP 5x8", None),
+           ("strips + FASTSTRIP 15x15", "strip + faststrip"), ("NORM + TANG 0.4 mm", None),
+           ("NORM + TANG 0.2 mm", "norm + tang"))
 ALL = "all"  # kinds together
 PROMISED = ("worst", "times_strips_sure", "times_strips", "times_kalker_sure", "times_kalker",
             "us_median", "us_p95")
@@ -243,6 +248,18 @@ def trade_table(figures):
                   for row in figures.measured.rows("trade")])
 
 
+def choice_table(figures):
+    """A few solutions of `trade`, with contacts a second in `batch` where `./run scale` has them."""
+    given = read_table(str(figures.root / SCALE), ("group", "what", "contacts_per_core_s"))
+    rates = dict(zip(zip(given.words("group"), given.words("what")),
+                     given.numbers("contacts_per_core_s", missing=True)))
+    return table(["method", "contacts", "error of the forces, %: mean / largest",
+                  "ms: median / 95th percentile / largest", "contacts / s in `batch`"],
+                 [[row, figures.measured.word("trade", row, "contacts"),
+                   figures.pair("trade", row, "error"), figures.triple("trade", row, "ms"),
+                   known(rates.get(("method", method), math.nan))] for row, method in CHOICES])
+
+
 def influence_table(figures):
     def nanoseconds(row, loop):
         if ("influence", row, f"ns_{loop}") not in figures.measured.cells:
@@ -358,15 +375,15 @@ def speed_table(figures):
 
 
 def tails(figures):
-    """The README's few times in one row, with the case of the largest."""
+    """Times of a few things that hosts wait for, with the case of the largest."""
     given, triple = speeds(figures)
     places = {key: k for k, key in enumerate(zip(given.words("group"), given.words("what")))}
     for key in TAILS:
         if key not in places:
-            raise InputError(f"no such time: {': '.join(key)} ({SPEED})")
-    return table([what if group == "normal" else f"{group}: {what}" for group, what in TAILS],
-                 [[f"{triple('us', places[key])} at {given.words('worst_case')[places[key]]}"
-                   for key in TAILS]])
+            raise InputError(f"no such time: {', '.join(key)} ({SPEED})")
+    return table(["µs", "median / 95th percentile / largest", "largest at"],
+                 [[f"{group}: {what}", triple("us", places[group, what]),
+                   given.words("worst_case")[places[group, what]]] for group, what in TAILS])
 
 
 def page_table(figures):
@@ -439,6 +456,7 @@ TABLES = {
     "rolling": rolling_table,
     "convergence": convergence_table,
     "trade": trade_table,
+    "choice": choice_table,
     "influence": influence_table,
     "times": times_table,
     "speed": speed_table,
