@@ -24,7 +24,7 @@ module faststrip_command_batch_parts
     type(option_t), parameter :: part_options(3) = [ &
         option_t('--part', 'k/K', 'only part k of K, with a manifest beside it; see merge'), &
         option_t('--parts', 'K', 'K parts, shared with whatever other processes do the' &
-                 // new_line('a') // 'same; who makes the last one joins them'), &
+                 // new_line('a') // 'same; the last process joins them'), &
         option_t('--resume', '', 'go on with what an ended run has left')]
 
     !> What was asked for.
