@@ -249,7 +249,7 @@ def trade_table(figures):
 
 
 def choice_table(figures):
-    """A few solutions of `trade`, with contacts a second in `batch` where `./run scale` has them."""
+    """A few solutions of `trade`, with contacts per second in `batch` where they were measured."""
     given = read_table(str(figures.root / SCALE), ("group", "what", "contacts_per_core_s"))
     rates = dict(zip(zip(given.words("group"), given.words("what")),
                      given.numbers("contacts_per_core_s", missing=True)))
@@ -486,8 +486,8 @@ SECTIONS = (
      " extrapolated in its grid. References of `kalker_normal` and `kalker_tangential` are this"
      " project's own, themselves compared with CONTACT.", "validation"),
     ("Contacts of the paper's section 5",
-     "The 20 contacts against full CONTACT, mean / largest absolute error. c is the root of area over"
-     " pi.",
+     "The 20 contacts against full CONTACT, mean / largest absolute error. c is the root of area"
+     " over pi.",
      "contacts"),
     ("Convergence of strips", "Errors against the number of strips, mean / largest.",
      "convergence"),
