@@ -18,6 +18,8 @@ import page_in_browser  # noqa: F401
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 HOSTS = ROOT / "example" / "hosts"
+# Pages with callers, and their headings.
+CALLERS = (("README.md", "Embedding"), ("docs/embedding.md", "Callers in C and Fortran 77"))
 
 
 def bits(*numbers):
@@ -30,13 +32,17 @@ def number(text):
     return struct.unpack(">d", bytes.fromhex(text))[0]
 
 
-def readme_blocks():
-    """Language and text of the README's callers, and of the lines that compile and run them."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    section = text.split("## Embed it in your code")[1].split("\n## ")[0]
-    # Installed it is, and where is known.
-    return [(block.language, re.sub(r"(?m)^(\./run install|export) .*\n", "", block.text))
-            for block in blocks.blocks_of(section) if block.language != "output"]
+def callers():
+    """Language and text of the callers that pages show, and of the lines that compile and run them:
+    those of the README, then those of docs/embedding.md."""
+    found = []
+    for page, heading in CALLERS:
+        section = (ROOT / page).read_text(encoding="utf-8").split(f"\n## {heading}\n")[1]
+        # Installed it is, and where is known.
+        found += [(block.language, re.sub(r"(?m)^(\./run install|export) .*\n", "", block.text))
+                  for block in blocks.blocks_of(section.split("\n## ")[0])
+                  if block.language != "output"]
+    return found
 
 
 class Installation:

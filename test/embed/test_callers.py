@@ -1,8 +1,8 @@
-"""The callers of the README, compiled by its lines against the installation alone, and C++."""
+"""The callers of the pages, compiled by their lines against the installation alone, and C++."""
 
 import re
 
-from installed import ROOT, HostTest, readme_blocks
+from installed import CALLERS, ROOT, HostTest, callers
 
 FILES = {"fortran": "caller.f90", "f77": "caller.f", "c": "caller.c", "python": "caller.py"}
 
@@ -13,14 +13,15 @@ class Callers(HostTest):
         status, *numbers = self.shell(line, **environment).split()
         return int(status), *(float(number) for number in numbers)
 
-    def test_the_callers_of_the_readme_print_what_it_shows(self):
+    def test_the_callers_print_what_pages_show(self):
         """To the character, whatever the language: as many digits as every build reproduces."""
-        text = (ROOT / "README.md").read_text(encoding="utf-8")
-        shown = re.findall(r"(?m)^0 .*E[+-]\d\d$", text)
+        shown = [line for page, _ in CALLERS
+                 for line in re.findall(r"(?m)^0 .*E[+-]\d\d$",
+                                        (ROOT / page).read_text(encoding="utf-8"))]
         self.assertEqual((len(shown), len(set(shown))), (4, 1))
         found = {}
         (self.folder / ".venv").symlink_to(ROOT / ".venv")
-        for language, text in readme_blocks():
+        for language, text in callers():
             if language in FILES:
                 self.write(FILES[language], text)
             else:
@@ -38,7 +39,7 @@ class Callers(HostTest):
         self.assertAlmostEqual(force, -12.23e3, delta=200.0)
 
     def test_cplusplus_static_and_without_underscores(self):
-        sources = dict(readme_blocks())
+        sources = dict(callers())
         self.write("caller.cpp", sources["c"])
         self.shell("g++ -std=c++11 -Wall -Wextra -pedantic -Werror caller.cpp"
                    " $(pkg-config --cflags --libs faststrip) -o caller_cpp")
@@ -50,7 +51,7 @@ class Callers(HostTest):
 
     def test_static_linking_by_pkg_config(self):
         """Against the archive alone: static altogether, or but for the system's libraries."""
-        sources = dict(readme_blocks())
+        sources = dict(callers())
         self.write("caller.c", sources["c"])
         self.write("caller.cpp", sources["c"])
         self.write("caller.f", sources["f77"])
@@ -77,7 +78,7 @@ class Callers(HostTest):
         self.assertEqual(len(found), 1, found)
 
     def test_hosts_that_trap(self):
-        sources = dict(readme_blocks())
+        sources = dict(callers())
         traps = "-g -ffpe-trap=invalid,zero,overflow,underflow"
         for language, name, flags in (("fortran", "caller.f90", "--cflags --libs"),
                                       ("f77", "caller.f", "--libs")):

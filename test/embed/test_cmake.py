@@ -10,7 +10,7 @@ import tempfile
 import tomllib
 import unittest
 
-from installed import ROOT, installation, readme_blocks
+from installed import ROOT, callers, installation
 
 PROGRAMS = pathlib.Path(sys.executable).parent
 FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
@@ -40,7 +40,7 @@ class CMakeTest(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = pathlib.Path(temporary.name)
-        sources = dict(readme_blocks())
+        sources = dict(callers())
         for name, language in (("caller.c", "c"), ("caller.f90", "fortran"), ("caller.f", "f77")):
             cls.write(name, sources[language])
         with open(ROOT / "fpm.toml", "rb") as file:

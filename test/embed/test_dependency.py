@@ -12,7 +12,7 @@ import tomllib
 import unittest
 
 import steps
-from installed import ROOT, readme_blocks
+from installed import ROOT, callers
 
 FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
 MANIFEST = """\
@@ -97,7 +97,7 @@ class Dependency(unittest.TestCase):
         return (self.folder / "linked").read_text(encoding="utf-8")
 
     def test_the_core_links_without_gsl_and_fftw(self):
-        code, said = self.build("faststrip", ".", dict(readme_blocks())["fortran"])
+        code, said = self.build("faststrip", ".", dict(callers())["fortran"])
         self.assertEqual(code, 0, said)
         self.assertRegex(self.linked(), r"-lopenblas\b")
         self.assertNotRegex(self.linked(), FORBIDDEN)

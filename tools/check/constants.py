@@ -320,25 +320,24 @@ def page(constants, measured):
         " -->", "",
         "# Constants", "",
         f"The {len(constants)} tuned numbers of the solver and the program, by room: those that"
-        " somebody has chosen."
-        " Unit and origin stand beside each in the source, where `Tuned [unit]` marks it. Origins:"
+        " were chosen in this project."
+        " Unit and origin are beside each in the source, marked by `Tuned [unit]`. Origins:"
         " *chosen* is by judgement, no measurement was kept; *safeguard* bounds what no sensible"
         " contact reaches; *capacity* bounds memory or work; *calibrated* was fitted to"
         " errors.", "",
-        "Numbers that nobody has chosen are not here: those of published formulas, standards and"
-        " fits, and numbers of kinds; in the source they are marked `Given`. Bare may stand"
+        "Given numbers are not listed: those of published formulas, standards and"
+        " fits, and numbers of kinds; in the source they are marked `Given`. Without a name only"
         " 0, 1, 2,"
-        " 3, 4, 0.5 and 0.25, subscripts, bounds and lengths; a test refuses all others"
+        " 3, 4, 0.5 and 0.25, subscripts, bounds and lengths are allowed; a test rejects all others"
         " (`tools/check/constants.py`, which states the rule).", "",
-        f"What happens at half and at double: {count} were measured by"
-        " `tools/check/sensitivity.py`, the others were not. Told is the largest relative change"
+        f"Effect of half and double the value: {count} were measured by"
+        " `tools/check/sensitivity.py`, the others were not. Given is the largest relative change"
         " of penetration, pmax and area on the 20 contacts of the reference (contacts), of a"
         " force by any method over mu N on 441 contacts (forces), of 80 random gaps, of"
-        " estimated errors there over the larger of both, and of the answers of kalker_normal"
+        " estimated errors there over the larger of both, and of the results of kalker_normal"
         " and kalker_tangential (kalker); of mean errors against CONTACT those that change by a"
         " twentieth, and so of iterations of the random gaps, where counted. *nothing*: no"
-        " change above 0.001 %. Random gaps that are near to two answers change much: one of"
-        " them is enough.",
+        " change above 0.001 %. A single random gap near to two solutions makes a large change.",
     ]
     for room in sorted({constant.short.split("/")[0] for constant in constants}):
         lines += ["", f"## {room}", "",

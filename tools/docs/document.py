@@ -26,27 +26,28 @@ SITE = ROOT / "out" / "docs"
 # project stands that of the Fortran interface, which is made here.
 API = ("Fortran interface", "interface.md")
 GROUPS = (
-    ("Begin", (
+    ("Getting started", (
         ("faststrip", "README.md"),
         ("Start here", "docs/start.md"),
-        ("Installation", "docs/install.md"))),
+        ("Installation", "docs/install.md"),
+        ("Choosing a method", "docs/choosing.md"))),
     ("Tutorials", (
-        ("A worn wheel", "docs/tutorial_worn_wheel.md"),
-        ("Through a curve", "docs/tutorial_curve.md"),
+        ("Worn wheel", "docs/tutorial_worn_wheel.md"),
+        ("Wheelset in a curve", "docs/tutorial_curve.md"),
         ("Conicity", "docs/tutorial_conicity.md"),
-        ("A table for an old code", "docs/tutorial_table.md"),
-        ("Into a vehicle", "docs/tutorial_vehicle.md"),
-        ("Into Fortran 77", "docs/tutorial_fortran77.md"),
-        ("How accurate is it", "docs/tutorial_accuracy.md"))),
-    ("Use", (
+        ("Coefficient table for an old code", "docs/tutorial_table.md"),
+        ("Vehicle model", "docs/tutorial_vehicle.md"),
+        ("Fortran 77 code", "docs/tutorial_fortran77.md"),
+        ("Accuracy", "docs/tutorial_accuracy.md"))),
+    ("User guide", (
         ("Usage", "docs/usage.md"),
         ("Formats", "docs/formats.md"),
         ("Limitations and errors", "docs/errors.md"),
         ("From FASTSIM or CONTACT", "docs/migration.md"),
         ("Embedding", "docs/embedding.md"),
-        ("Traps for a host", "docs/traps.md"),
+        ("Common mistakes", "docs/traps.md"),
         API)),
-    ("Behind it", (
+    ("Theory and development", (
         ("Method", "docs/method.md"),
         ("Validation", "docs/validation.md"),
         ("Constants", "docs/constants.md"),
@@ -54,7 +55,7 @@ GROUPS = (
         ("Paper", "docs/paper.md"),
         ("Architecture", "docs/architecture.md"),
         ("Extending", "docs/extending.md"),
-        ("References", "reference/README.md"))),
+        ("Reference data", "reference/README.md"))),
     ("Project", (
         ("Contributing", "CONTRIBUTING.md"),
         ("Changes", "CHANGELOG.md"))),

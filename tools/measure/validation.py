@@ -43,11 +43,16 @@ SPEED = "reference/speed.csv"
 PAINTED = "reference/page.csv"
 SCALE = "reference/scale.csv"
 SPREAD = ("median", "p95", "worst")
-# What the README tells of it.
+# What docs/choosing.md shows of it.
 TAILS = (("normal", "strips in KPEC 15"), ("normal", "strips 15"),
          ("warm step, 15 strips", "load 2.5 %"), ("tangential", "FASTSIM 50x50"),
          ("tangential", "FASTSTRIP 15x15"), ("wheelset", "cold start"),
          ("batch", "row, new gap"))
+# What docs/choosing.md compares: solutions of `trade`, with their methods in `scale`.
+CHOICES = (("Hertz + Polach", "hertz + polach"), ("Hertz + FASTSIM 50x50", "hertz + fastsim"),
+           ("strips 15 + FASTSIM 50x50", None), ("strips + FASTSTRIP 5x8", None),
+           ("strips + FASTSTRIP 15x15", "strip + faststrip"), ("NORM + TANG 0.4 mm", None),
+           ("NORM + TANG 0.2 mm", "norm + tang"))
 ALL = "all"  # kinds together
 PROMISED = ("worst", "times_strips_sure", "times_strips", "times_kalker_sure", "times_kalker",
             "us_median", "us_p95")
@@ -243,6 +248,18 @@ def trade_table(figures):
                   for row in figures.measured.rows("trade")])
 
 
+def choice_table(figures):
+    """A few solutions of `trade`, with contacts per second in `batch` where they were measured."""
+    given = read_table(str(figures.root / SCALE), ("group", "what", "contacts_per_core_s"))
+    rates = dict(zip(zip(given.words("group"), given.words("what")),
+                     given.numbers("contacts_per_core_s", missing=True)))
+    return table(["method", "contacts", "error of the forces, %: mean / largest",
+                  "ms: median / 95th percentile / largest", "contacts / s in `batch`"],
+                 [[row, figures.measured.word("trade", row, "contacts"),
+                   figures.pair("trade", row, "error"), figures.triple("trade", row, "ms"),
+                   known(rates.get(("method", method), math.nan))] for row, method in CHOICES])
+
+
 def influence_table(figures):
     def nanoseconds(row, loop):
         if ("influence", row, f"ns_{loop}") not in figures.measured.cells:
@@ -358,15 +375,15 @@ def speed_table(figures):
 
 
 def tails(figures):
-    """The README's few times in one row, with the case of the largest."""
+    """Times of a few things that hosts wait for, with the case of the largest."""
     given, triple = speeds(figures)
     places = {key: k for k, key in enumerate(zip(given.words("group"), given.words("what")))}
     for key in TAILS:
         if key not in places:
-            raise InputError(f"no such time: {': '.join(key)} ({SPEED})")
-    return table([what if group == "normal" else f"{group}: {what}" for group, what in TAILS],
-                 [[f"{triple('us', places[key])} at {given.words('worst_case')[places[key]]}"
-                   for key in TAILS]])
+            raise InputError(f"no such time: {', '.join(key)} ({SPEED})")
+    return table(["µs", "median / 95th percentile / largest", "largest at"],
+                 [[f"{group}: {what}", triple("us", places[group, what]),
+                   given.words("worst_case")[places[group, what]]] for group, what in TAILS])
 
 
 def page_table(figures):
@@ -439,6 +456,7 @@ TABLES = {
     "rolling": rolling_table,
     "convergence": convergence_table,
     "trade": trade_table,
+    "choice": choice_table,
     "influence": influence_table,
     "times": times_table,
     "speed": speed_table,
@@ -456,22 +474,24 @@ TABLES = {
 # The page: headings, words, and the tables that belong to them.
 SECTIONS = (
     ("Data and revision", "", "stamp"),
-    ("Verification: against exact solutions",
-     "Each row is a line of `reference/comparisons.csv`, which says how it is computed.",
+    ("Verification against exact solutions",
+     "Each row is a line of `reference/comparisons.csv`, which defines how it is computed.",
      "verification"),
-    ("At the extremes",
+    ("Extreme cases",
      "Strips 1e-12 to 1e12 times as wide as long, up to a million strips apart, against quadruple"
      " precision; ellipses with a/b from 1e-3 to 1e3 under loads from 1e-6 to 1e9 N, 15 strips,"
      " against Hertz (`bench extremes`).", "extremes"),
-    ("Validation: against other codes",
+    ("Validation against other codes",
      "CONTACT's penetration and maximum pressure are those of its 0.1 mm grid; everything else is"
      " extrapolated in its grid. References of `kalker_normal` and `kalker_tangential` are this"
      " project's own, themselves compared with CONTACT.", "validation"),
-    ("The 20 contacts of the paper's section 5",
-     "Against full CONTACT, mean / largest size of the error. c is the root of area over pi.",
+    ("Contacts of the paper's section 5",
+     "The 20 contacts against full CONTACT, mean / largest absolute error. c is the root of area"
+     " over pi.",
      "contacts"),
-    ("Strips: convergence", "Errors against the number of strips, mean / largest.", "convergence"),
-    ("Creep forces on gaps of other kinds",
+    ("Convergence of strips", "Errors against the number of strips, mean / largest.",
+     "convergence"),
+    ("Creep forces on random gaps",
      "Eight families of gaps with loads, materials, friction and creepages drawn at random, against"
      " kalker_normal and kalker_tangential; no constant was fitted to them. Mean / largest.",
      "forces of other gaps"),
@@ -482,38 +502,40 @@ SECTIONS = (
      "`kalker_tangential` against CONTACT extrapolated, the paper's contacts with the physical"
      " signs, mean / largest.", "rolling"),
     ("Coverage of the error estimates",
-     "How many of the true errors the estimates bound, and how many times as large they are in the"
-     " median (`bench estimates`, 5 to 41 strips and auto). Where the reference is itself in doubt"
+     "Share of the true errors that the estimates bound, and the median of estimate over error"
+     " (`bench estimates`, 5 to 41 strips and auto). Where the reference solution is uncertain"
      " a contact does not count. Most factors of the estimates were chosen on ellipses, on every"
      " second of the 20 contacts and on random gaps of other distributions.", "estimates"),
     ("Coverage of the force error estimates",
-     "The same of the creep forces, on contacts of 15 kinds that nothing was fitted to and on"
+     "The same for the creep forces, on contacts of 15 kinds to which nothing was fitted and on"
      " ellipses, each with two creepages (`faststrip-lab claims`; NORM and TANG, extrapolated,"
      " are the reference).", "force estimates"),
     ("Coverage of automatic solutions",
      "On the same contacts, by the program itself: status `ok` claims an error within the"
-     " tolerance. Times are summed over the contacts: against always 31 strips with FASTSTRIP"
-     " where their own estimates are within the tolerance, and where their errors are, which"
-     " nobody knows; and against always NORM and TANG with 36 elements across.", "claims"),
+     " tolerance. Times are summed over the contacts and compared with those of 31 strips with"
+     " FASTSTRIP, on the contacts where their own estimates are within the tolerance, and where"
+     " their errors are (which is unknown in practice); and with those of NORM and TANG with 36"
+     " elements across.", "claims"),
     ("Error against time",
      "The worst of Fx, Fy, Mz, in percent of mu N and mu N c; times of both stages together on one"
      " core, cold (`bench trade`).", "trade"),
     ("Influence integral",
      "Geometric means of times over n = 0, 1, 10 and b = 0.02, 0.3, 5 (`bench integral`).",
      "influence"),
-    ("Times of the stages", "Processor time on the paper's contacts (`bench normal`,"
+    ("Computing times of the stages", "Processor time on the paper's contacts (`bench normal`,"
      " `bench tangential`, 15 strips by 15 points).", "times"),
     ("Computing times in one run",
-     "Processor time of one contact, step, state or row each; ratios of the same contact each, to"
-     " FASTSIM in the same run and to the time recorded for CONTACT, on another machine; its KPEC"
-     " and ANALYN were given the penetration (`./run speed`, `./run stored speed`).", "speed"),
+     "Processor time of one contact, step, state or row; ratios for the same contact, to FASTSIM in"
+     " the same run and to the time recorded for CONTACT on another machine, whose KPEC and ANALYN"
+     " were given the penetration (`./run speed`, `./run stored speed`).", "speed"),
     ("Large batches",
-     "`batch` on the paper's gaps in turn, each row with a load and creepages of its own: rows a"
-     " second of processor, elapsed time of one thread over that of n times n (or the cores there"
-     " are, two), peak memory, sizes of input and results, and a thousand million contacts by"
+     "`batch` on the paper's gaps in turn, with a load and creepages for each row: rows per second"
+     " of processor time, elapsed time of one thread over that of n times n (or the number of"
+     " cores, two), peak memory, sizes of input and results, and a thousand million contacts by"
      " division (`./run scale`, `./run stored scale`).", "scale"),
-    ("The paper's statements",
-     "The report tests the paper's statements one by one and gives each a verdict.", "statements"),
+    ("Statements of the paper",
+     "The report tests the statements of the paper one by one and gives each a verdict.",
+     "statements"),
 )
 
 
@@ -523,9 +545,9 @@ def validation_page(figures):
         "<!-- Written by tools/measure/validation.py from reference/comparisons.csv and"
         " reference/measured.csv; change those, not this. -->",
         "# Validation",
-        "What the last full report has measured, condensed. `./run report` measures everything"
-        " anew, with pictures; `./run stored measured` also writes this page anew. Times are of one"
-        " machine and depend on what else it does.",
+        "The results of the last full report, condensed. `./run report` repeats all measurements,"
+        " with pictures; `./run stored measured` also writes this page again. Times are of one"
+        " machine and depend on its load.",
     ]
     for title, words, name in SECTIONS:
         parts += [part for part in (f"## {title}", words, TABLES[name](figures)) if part]

@@ -161,7 +161,7 @@ contains
                 option_t('--chain', 'N', 'start rows from the one before, in chains of N' &
                          // new_line('a') // '(default 1: each a cold start)'), &
                 option_t('--times', '', 'fill the columns of times, never twice the same'), &
-                option_t('--quiet', '', 'do not tell how far the work is'), &
+                option_t('--quiet', '', 'report no progress'), &
                 part_options, method_options()]
             command%about = command%about // method_notes()
             call parse_command(command, 1)

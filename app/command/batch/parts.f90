@@ -25,7 +25,7 @@ module faststrip_command_batch_parts
         option_t('--part', 'k/K', 'only part k of K, with a manifest beside it; see merge:' &
                  // new_line('a') // 'for array jobs, whose tasks run at any time'), &
         option_t('--parts', 'K', 'K parts, shared with whatever other processes do the' &
-                 // new_line('a') // 'same; who makes the last one joins them: for processes' &
+                 // new_line('a') // 'same; the last process joins them: for processes' &
                  // new_line('a') // 'that run together, of shells, srun or mpirun'), &
         option_t('--resume', '', 'go on with what an ended run has left')]
 

@@ -50,7 +50,7 @@ contains
         command%name = 'contact'
         command%usage = 'CASE.nml'
         command%about = &
-            'Solve one contact: from two profiles and a lateral shift, or from a gap file with' &
+            'Solve one contact: from two profiles and a displacement, or from a gap file with' &
             // new_line('a') // 'the columns y_mm,h_mm,inv2R_per_mm. CSV, one row.' &
             // new_line('a')
         command%options = [ &
@@ -66,7 +66,7 @@ contains
             option_t('--profiles', 'FILE', 'write wheel and rail in contact there', &
                      writes=.true.), &
             plot_option, &
-            option_t('--shift', 'MM', 'lateral shift, instead of that of the case'), &
+            option_t('--shift', 'MM', 'lateral displacement, instead of that of the case'), &
             method_options()]
         command%about = command%about // method_notes()
         call parse_command(command, 1)

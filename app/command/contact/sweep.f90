@@ -55,11 +55,11 @@ contains
         command%name = 'sweep'
         command%usage = 'CASE.nml'
         command%about = &
-            'Solve the contact of a case at every lateral shift of its group &sweep, by strips' &
-            // new_line('a') // 'with faststrip and fastsim and by hertz with fastsim. CSV, one' &
-            // ' row per shift' // new_line('a') // 'and method; one that fails gets its status' &
-            // ' word and empty figures.' // new_line('a') // 'With --normal or --tangential' &
-            // ' there is one row more, by these methods.' // new_line('a')
+            'Solve the contact of a case at every displacement of its group &sweep, by strips' &
+            // new_line('a') // 'with faststrip and fastsim and by hertz with fastsim. CSV,' &
+            // ' one row per displacement' // new_line('a') // 'and method; one that fails gets' &
+            // ' its status word and empty figures.' // new_line('a') // 'With --normal or' &
+            // ' --tangential there is one row more, by these methods.' // new_line('a')
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF to' &
                      // new_line('a') // 'FILE.nc', writes=.true.), &

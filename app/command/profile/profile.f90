@@ -61,7 +61,7 @@ contains
         end do
         command%about = command%about // &
             'Rows of a CSV describe them: y to the field side, z down, mm. Nothing is repaired' // &
-            newline // 'unasked; what is asked for is done in the order below.' // newline
+            newline // 'by default; options are applied in the order below.' // newline
         command%options = [ &
             option_t('-o', 'FILE', 'write the profile there: .csv, .prw or .prr', writes=.true.), &
             option_t('--table', 'FILE', 'write the CSV of descriptions there (default stdout)', &

@@ -21,7 +21,7 @@ contains
         command%name = 'netcdf'
         command%usage = 'TABLE.csv'
         command%about = &
-            'Write a table anew as NetCDF-4, by the conventions for climate and forecast data' &
+            'Convert a table to NetCDF-4, by the conventions for climate and forecast data' &
             // new_line('a') // '(CF): a variable a column, one record dimension, units, what' &
             // ' a column holds, the' // new_line('a') // 'comment lines as attributes. Empty' &
             // ' cells have the fill value, text is kept as arrays of' // new_line('a') &

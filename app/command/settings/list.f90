@@ -20,9 +20,8 @@ contains
         command%name = 'settings'
         command%usage = ''
         command%about = &
-            'All that case files can set, group by group: name, what it may be, what it is where' &
-            // new_line('a') // 'nothing is said, the option that goes before it, and what it ' &
-            // 'means. CSV.' // new_line('a')
+            'All settings of case files, group by group: name, permitted values, default, the' &
+            // new_line('a') // 'option that overrides it, and its meaning. CSV.' // new_line('a')
         command%options = [option_t('-o', 'FILE', 'write the CSV there (default stdout)', &
                                     writes=.true.)]
         call parse_command(command, 0)

@@ -84,8 +84,9 @@ module faststrip_command_settings_table
         setting_t('contact', 'load_direction', a_word, &
                   'of the load: along the contact normal, or vertical', words='normal vertical', &
                   default='normal'), &
-        setting_t('contact', 'shift_mm', a_number, 'lateral shift of the wheelset, to the right', &
-                  quantity=of_shift, default='0', option='--shift', value_name='MM')]
+        setting_t('contact', 'shift_mm', a_number, &
+                  'lateral displacement of the wheelset, to the right', quantity=of_shift, &
+                  default='0', option='--shift', value_name='MM')]
 
     type(setting_t), parameter :: of_material(*) = [ &
         setting_t('material', 'E_wheel_MPa', a_number, "Young's modulus of the wheel", &
@@ -103,16 +104,16 @@ module faststrip_command_settings_table
         setting_t('wheel', 'profile', a_text, '`s1002`, `cone20`, `cone40` or a file'), &
         setting_t('wheel', 'profile_left', a_text, 'of the left wheel; `wheelset`, `conicity`', &
                   default='as the right one'), &
-        setting_t('wheel', 'radius_mm', a_number, 'rolling radius at the tread line', &
+        setting_t('wheel', 'radius_mm', a_number, 'rolling radius at the nominal rolling circle', &
                   range=above_0, quantity=of_radius, default='460'), &
         setting_t('wheel', 'radius_left_mm', a_number, &
                   'of the left wheel; `wheelset`, `conicity`', range=above_0, &
                   quantity=of_radius, default='as the right one'), &
-        setting_t('wheel', 'back_spacing_mm', a_number, 'distance of the flange backs', &
+        setting_t('wheel', 'back_spacing_mm', a_number, 'flange back-to-back distance', &
                   range=above_0, quantity=of_gauge, default='from the gauge'), &
         setting_t('wheel', 'tread_line_mm', a_number, &
-                  'mean tread line from the flange back', range=above_0, quantity=of_tread_line, &
-                  default='70')]
+                  'nominal rolling circle from the flange back', range=above_0, &
+                  quantity=of_tread_line, default='70')]
 
     type(setting_t), parameter :: of_rail(*) = [ &
         setting_t('rail', 'profile', a_text, '`uic60`, `60e1`, `54e1` or a file'), &
@@ -262,7 +263,7 @@ module faststrip_command_settings_table
                   range=from_0, default='0.5')]
 
     type(setting_t), parameter :: of_sweep(*) = [ &
-        setting_t('sweep', 'shifts_mm', a_list, 'lateral shifts', most=most_shifts, &
+        setting_t('sweep', 'shifts_mm', a_list, 'lateral displacements', most=most_shifts, &
                   quantity=of_shift), &
         setting_t('sweep', 'load_N', a_list, 'normal forces, one a shift', most=most_shifts, &
                   range=above_0), &
@@ -293,7 +294,7 @@ module faststrip_command_settings_table
         setting_t('state', 'Fz_N', a_number, 'vertical force on the rail, normal and friction' &
                   // ' forces together: of the wheel, with `both` of the axle'), &
         setting_t('state', 'z_mm', a_number, 'instead of `Fz_N`, with a roll: height of the' &
-                  // ' centre, down; 0 where the tread lines are as high as the crowns'), &
+                  // ' centre, down; 0: nominal rolling circles at the height of the crowns'), &
         setting_t('state', 'vy_mm_s', a_number, 'velocity to the right', default='0'), &
         setting_t('state', 'vz_mm_s', a_number, 'velocity down', default='0'), &
         setting_t('state', 'roll_rate_rad_s', a_number, 'rate of the roll', default='0'), &

@@ -80,10 +80,11 @@ contains
             option_t('--step', 'NUMBER', 'and their step, mm (default 0.1)'), &
             option_t('--method', 'NAME', 'klingel (default; Annex B) or regression (Annex C)'), &
             option_t('--roll', '', 'of a case: the wheelset rolls until both wheels touch'), &
-            option_t('--y-max', 'NUMBER', 'of a case: largest lateral shift, mm (default 10)'), &
-            option_t('--y-step', 'NUMBER', 'of a case: step of the shift, mm (default 0.1)'), &
+            option_t('--y-max', 'NUMBER', 'of a case: largest displacement, mm (default 10)'), &
+            option_t('--y-step', 'NUMBER', &
+                     'of a case: step of the displacement, mm (default 0.1)'), &
             option_t('--functions', 'FILE', 'of a case: write delta r, radii, contact angles,' &
-                     // new_line('a') // 'roll and contact places over the shift there', &
+                     // new_line('a') // 'roll and contact positions over it there', &
                      writes=.true.), &
             plot_option, &
             option_t('-o', 'FILE', 'write the CSV there (default stdout), NetCDF to' &
