@@ -10,6 +10,7 @@ leads nowhere.
 """
 
 import argparse
+import os
 import pathlib
 import re
 import shutil
@@ -18,13 +19,18 @@ import sys
 import tempfile
 
 import blocks
+import interfaces
 from pages import FILE, PICTURE, links, pictures, strange_formulas
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITE = ROOT / "out" / "docs"
-# The navigation: groups of pages, what they are called there, file. Between the pages of the
-# project stands that of the Fortran interface, which is made here.
-API = ("Fortran interface", "interface.md")
+# Pages of the interfaces, which are made here.
+MADE = (
+    ("Python", "python.rst"),
+    ("C", "c.rst"),
+    ("Fortran", "fortran.md"),
+    ("Fortran 77", "fortran77.md"))
+# The navigation: groups of pages, what they are called there, file.
 GROUPS = (
     ("Begin", (
         ("faststrip", "README.md"),
@@ -43,8 +49,8 @@ GROUPS = (
         ("Limitations and errors", "docs/errors.md"),
         ("From FASTSIM or CONTACT", "docs/migration.md"),
         ("Embedding", "docs/embedding.md"),
-        ("Traps for a host", "docs/traps.md"),
-        API)),
+        ("Traps for a host", "docs/traps.md"))),
+    ("Interfaces", MADE),
     ("Behind it", (
         ("Method", "docs/method.md"),
         ("Validation", "docs/validation.md"),
@@ -56,7 +62,7 @@ GROUPS = (
         ("Contributing", "CONTRIBUTING.md"),
         ("Changes", "CHANGELOG.md"))),
 )
-PAGES = tuple(page for _, pages in GROUPS for page in pages if page != API)
+PAGES = tuple(page for _, pages in GROUPS for page in pages if page not in MADE)
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//|(?:mailto|data):")
 # A length that is asked with several arguments.
 LENGTH = re.compile(r"\b(character\(len=)(\w+)\([^()]*,[^()]*\)\)", re.IGNORECASE)
@@ -127,7 +133,8 @@ def gather(folder):
             copy(file, folder / file.relative_to(ROOT.resolve()))
         make_pictures(text, folder)
         copy_text(for_sphinx(text, source), folder / source)
-    copy_text(interface(), folder / API[1])
+    for source, text in interfaces.pages(SITE / "api").items():
+        copy_text(text, folder / source)
 
 
 def copy(file, target):
@@ -161,7 +168,7 @@ def for_sphinx(text, source):
     if source != "README.md":
         return text
     for name, pages in GROUPS:
-        entries = "\n".join(f"{words} <{file.removesuffix('.md')}>" for words, file in pages
+        entries = "\n".join(f"{words} <{file.rpartition('.')[0]}>" for words, file in pages
                             if file != source)
         text += f"\n```{{toctree}}\n:hidden:\n:caption: {name}\n\n{entries}\n```\n"
     return text
@@ -172,30 +179,13 @@ def build_pages(folder):
     done = subprocess.run([sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "-j", "auto",
                            "-D", "root_doc=README", folder, str(SITE)], cwd=ROOT,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
-                          check=False)
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")}, check=False)
     if done.returncode != 0:
         sys.exit(done.stdout)
     shutil.rmtree(SITE / ".doctrees", ignore_errors=True)
     (SITE / "index.html").write_text(
         '<!DOCTYPE html><meta http-equiv="refresh" content="0; url=README.html">'
         '<a href="README.html">faststrip</a>\n', encoding="utf-8")
-
-
-def interface():
-    """A page that leads into FORD's: its modules, types and procedures, which the search finds."""
-    lines = ["# Fortran interface", "", '<a href="api/index.html">All of it</a>: modules, their '
-             "types and procedures, made from the sources.", ""]
-    for kind, title in (("module", "Modules"), ("type", "Types"), ("proc", "Procedures"),
-                        ("interface", "Interfaces")):
-        lines += [f"## {title}", ""]
-        for path in sorted((SITE / "api" / kind).glob("*.html")):
-            text = path.read_text(encoding="utf-8")
-            name = re.search(r"<title>\s*(\S+)", text)[1]
-            summary = re.search(r"id='text'>.*?<p>(.*?)</p>", text, re.DOTALL)
-            words = " ".join(re.sub(r"<[^>]+>", " ", summary[1]).split()) if summary else ""
-            lines.append(f'- <a href="{path.relative_to(SITE).as_posix()}">{name}</a> {words}')
-        lines.append("")
-    return "\n".join(lines)
 
 
 def broken_targets():
