@@ -10,6 +10,9 @@ leads nowhere.
 """
 
 import argparse
+import collections
+import html
+import json
 import os
 import pathlib
 import re
@@ -63,6 +66,8 @@ GROUPS = (
         ("Changes", "CHANGELOG.md"))),
 )
 PAGES = tuple(page for _, pages in GROUPS for page in pages if page not in MADE)
+# What an error is known by: the first words of its entry.
+SYMPTOMS = re.compile(r"^### (\w+)\n\n\*Symptoms: (.*?)\.\*\n", re.MULTILINE | re.DOTALL)
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//|(?:mailto|data):")
 # A length that is asked with several arguments.
 LENGTH = re.compile(r"\b(character\(len=)(\w+)\([^()]*,[^()]*\)\)", re.IGNORECASE)
@@ -80,6 +85,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         gather(pathlib.Path(folder))
         build_pages(folder)
+    write_words()
     broken = sorted(broken_targets())
     if broken:
         sys.exit("\n".join(broken))
@@ -186,6 +192,31 @@ def build_pages(folder):
     (SITE / "index.html").write_text(
         '<!DOCTYPE html><meta http-equiv="refresh" content="0; url=README.html">'
         '<a href="README.html">faststrip</a>\n', encoding="utf-8")
+
+
+def words_of(texts):
+    """The words of pages, the most frequent first."""
+    count = collections.Counter()
+    for text in texts:
+        text = html.unescape(re.sub(r"<(script|style|math)\b.*?</\1>|<[^>]+>", " ", text, flags=re.DOTALL))
+        count.update(re.findall(r"(?<!\w)[^\W\d]\w{3,}", text.lower()))
+    return [word for word, _ in count.most_common()]
+
+
+def symptoms_of(text):
+    """Of each error of docs/errors.md what it is known by."""
+    return {word: [" ".join(one.split()) for one in words.split(",")]
+            for word, words in SYMPTOMS.findall(text)}
+
+
+def write_words():
+    """What the search knows beside Sphinx's index."""
+    texts = [path.read_text(encoding="utf-8") for path in SITE.rglob("*.html")
+             if "api" not in path.relative_to(SITE).parts]
+    symptoms = symptoms_of((ROOT / "docs" / "errors.md").read_text(encoding="utf-8"))
+    (SITE / "_static" / "words.js").write_text(
+        f"const WORDS = {json.dumps(words_of(texts), ensure_ascii=False)};\n"
+        f"const SYMPTOMS = {json.dumps(symptoms)};\n", encoding="utf-8")
 
 
 def broken_targets():

@@ -1,5 +1,6 @@
 """How Sphinx makes the site of the pages that tools/docs/document.py has gathered beside this."""
 
+import dataclasses
 import re
 from unittest import mock
 
@@ -18,7 +19,7 @@ autodoc_member_order, autodoc_typehints = "bysource", "none"
 default_role = "py:obj"
 maximum_signature_line_length = 80
 html_theme = "furo"
-html_static_path, html_css_files = ["site.css"], ["site.css"]
+html_static_path, html_css_files = ["site.css", "search.js"], ["site.css"]
 html_title = "faststrip"
 html_show_sourcelink = html_copy_source = html_use_index = False
 html_math_renderer = "mathml"
@@ -31,8 +32,11 @@ assert faststrip.__all__
 
 
 def one_by_one(app, what, name, obj, options, lines):
-    """Attributes that share their words, each with them: `a, b : float`."""
+    """Attributes that share their words, each with them: `a, b : float`. What a dataclass is made
+    of are its attributes."""
     text = "\n".join(lines)
+    if dataclasses.is_dataclass(obj) and "Attributes\n" not in text:
+        text = text.replace("Parameters\n", "Attributes\n")
     head, mark, rest = text.partition("Attributes\n----------\n")
     rest = re.sub(r"(?m)^(\w+(?:, \w+)+)( : .*\n(?: .*\n)+)",
                   lambda row: "".join(one + row[2] for one in row[1].split(", ")), rest + "\n")
@@ -41,7 +45,15 @@ def one_by_one(app, what, name, obj, options, lines):
 
 def no_signature(app, what, name, obj, *_):
     """Results are not made by users: their attributes say what they hold."""
-    return ("", None) if "Attributes\n" in (obj.__doc__ or "") and what == "class" else None
+    words = obj.__doc__ or ""
+    is_result = what == "class" and "Attributes\n" in words and "Parameters\n" not in words
+    return ("", None) if is_result else None
+
+
+def search_scripts(app, page, template, context, doctree):
+    if page == "search":
+        for name in ("words.js", "search.js"):
+            app.add_js_file(name, loading_method="defer")
 
 
 def setup(app):
@@ -58,3 +70,4 @@ def setup(app):
     app.add_lexer("f77", FortranFixedLexer)
     app.connect("autodoc-process-docstring", one_by_one, priority=400)
     app.connect("autodoc-process-signature", no_signature)
+    app.connect("html-page-context", search_scripts)
