@@ -34,8 +34,7 @@ const meant = (word) => {
 
 /* Does a search ask for a symptom: for more than half of its words and no other, or for all? */
 const asks = (query, symptom) => {
-  const stems = (text) => new Set(splitQuery(text.toLowerCase())
-    .filter((word) => !stopwords.has(word)).map(stem));
+  const stems = (text) => new Set(splitQuery(text).map(stem));
   const asked = stems(query), told = stems(symptom);
   const common = [...told].filter((word) => asked.has(word)).length;
   return common === told.size || (common === asked.size && 2 * common > told.size);
@@ -58,8 +57,9 @@ Search._performSearch = (query, ...rest) => {
     return symptom ? [["docs/errors", word, `#${word}`, symptom, 1000, "", SearchResultKind.title]]
                    : [];
   });
-  // The last one is shown first.
-  return [...find(query, ...rest), ...errors.reverse()];
+  // The last one is shown first. A parameter of a function stands beside it.
+  const found = find(query, ...rest).filter((item) => !item[3]?.startsWith("C function parameter"));
+  return [...found, ...errors.reverse()];
 };
 // Pages cannot be read by a script without a server.
 if (location.protocol === "file:") DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = false;
