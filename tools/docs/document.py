@@ -96,17 +96,17 @@ def readable(text):
     return LENGTH.sub(r"\1\2)", text)
 
 
-def build_api():
-    """FORD's pages, made independent of the network."""
+def build_api(sources=ROOT / "src", page=ROOT / "docs" / "ford.md"):
+    """FORD's pages of the sources in a folder, made independent of the network."""
     ford = pathlib.Path(sys.executable).parent / "ford"
     with tempfile.TemporaryDirectory() as folder:
-        for path in (ROOT / "src").rglob("*.f90"):
-            if "build" not in path.relative_to(ROOT).parts:
-                copy = pathlib.Path(folder, path.relative_to(ROOT))
+        for path in sources.rglob("*.f90"):
+            if "build" not in path.relative_to(sources).parts:
+                copy = pathlib.Path(folder, "src", path.relative_to(sources))
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 copy.write_text(readable(path.read_text(encoding="utf-8")), encoding="utf-8")
-        done = subprocess.run([str(ford), "--src_dir", f"{folder}/src",
-                               str(ROOT / "docs" / "ford.md")], cwd=ROOT,
+        done = subprocess.run([str(ford), "--src_dir", f"{folder}/src", "--output_dir",
+                               str(SITE / "api"), str(page)], cwd=ROOT,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
                               check=False)
     warnings = [line for line in done.stdout.splitlines() if "warning" in line.lower()]

@@ -156,7 +156,7 @@ def c_pages():
         own = [item for item in header.items if header.page_of(item) == file]
         texts[f"c/{file}.rst"] = "\n".join([title(words, "="), *(header.entry(item) + "\n"
                                                                 for item in own)])
-        lists.append(f"{title(words, '-')}\n:doc:`c/{file}`\n\n" + "".join(
+        lists.append(title(f":doc:`{words} <c/{file}>`", "-") + "\n" + "".join(
             f"- :c:{ROLES[item.kind]}:`{item.name}` "
             f"{header.words(first_sentence(item.words))}\n" for item in own))
     intro = header.words(head[0].upper() + head[1:]).replace("../docs/", "docs/")
@@ -190,7 +190,7 @@ def python_pages():
                 entries.append(f".. autoclass:: faststrip.{name}\n   :members:\n"
                                "   :inherited-members: object\n   :special-members: __call__\n")
         texts[f"python/{file}.rst"] = "\n".join([title(words, "="), *entries])
-        lists.append(title(words, "-") + f"\n:doc:`python/{file}`\n\n.. autosummary::\n"
+        lists.append(title(f":doc:`{words} <python/{file}>`", "-") + "\n.. autosummary::\n"
                      "   :nosignatures:\n\n" + "".join(f"   {name}\n"
                                                        for name in names.split()))
     texts["python.rst"] = "\n".join([
@@ -212,10 +212,14 @@ def fortran_77():
         places = list(place_rows([name]))
         lines += [f"## {about[0].upper()}{about[1:]}", ""]
         for row in rows:
-            call = re.match(r"\| `(\w+)", row)[1]
-            lines += [f"### {call}", "", "| call | takes | gives |", "|---|---|---|", row, ""]
+            call, takes, gives = row[2:-2].split(" | ")
+            lines += [f"### {call.strip('`').split('(')[0]}", "", f"`CALL {call.strip('`')}`", ""]
+            lines += [f"- {word} {told}" for word, told in (("takes", takes), ("gives", gives))
+                      if told]
+            lines.append("")
         if places:
-            lines += ["| of | place | what |", "|---|---|---|", *places, ""]
+            lines += ["| place | what |", "|---|---|"]
+            lines += [f"| {row.split(' | ', 1)[1]}" for row in places] + [""]
     return "\n".join(lines)
 
 
