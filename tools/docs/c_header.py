@@ -20,11 +20,12 @@ ITEM = re.compile(
     r"|^typedef struct (?P<struct>\w+) \{(?P<members>.*?)\} \w+;"
     r"|^typedef struct (?P<type>\w+) \w+;"
     r"|^(?P<result>int) (?P<function>\w+)\((?P<arguments>.*?)\);", re.MULTILINE | re.DOTALL)
-MEMBER = re.compile(rf"(?P<shown>\w[\w ]*?[ *]+(?P<name>\w+)(?:\[\d+\])*);[ ]*(?P<words>{COMMENT})?",
-                    re.DOTALL)
+MEMBER = re.compile(r"(?P<shown>\w[\w ]*?[ *]+(?P<name>\w+)(?:\[\d+\])*);[ ]*"
+                    rf"(?P<words>{COMMENT})?", re.DOTALL)
 CONSTANT = re.compile(rf"(?P<shown>(?P<name>\w+) = \d+),?[ ]*(?P<words>{COMMENT})?", re.DOTALL)
 FUNCTION = re.compile(r"function (faststrip_\w+)\((.*?)\)(.*?)end function \1", re.DOTALL)
-ARGUMENT = re.compile(r"^ +(?:type|integer|real)\(\w+\), value :: ([\w, ]+?) *!! (.*)$", re.MULTILINE)
+ARGUMENT = re.compile(r"^ +(?:type|integer|real)\(\w+\), value :: ([\w, ]+?) *!! (.*)$",
+                      re.MULTILINE)
 
 
 @dataclass(frozen=True)

@@ -68,6 +68,7 @@ GROUPS = (
 PAGES = tuple(page for _, pages in GROUPS for page in pages if page not in MADE)
 # What an error is known by: the first words of its entry.
 SYMPTOMS = re.compile(r"^### (\w+)\n\n\*Symptoms: (.*?)\.\*\n", re.MULTILINE | re.DOTALL)
+NOT_READ = re.compile(r"<(script|style|math)\b.*?</\1>|<[^>]+>", re.DOTALL)
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//|(?:mailto|data):")
 # A length that is asked with several arguments.
 LENGTH = re.compile(r"\b(character\(len=)(\w+)\([^()]*,[^()]*\)\)", re.IGNORECASE)
@@ -198,8 +199,8 @@ def words_of(texts):
     """The words of pages, the most frequent first."""
     count = collections.Counter()
     for text in texts:
-        text = html.unescape(re.sub(r"<(script|style|math)\b.*?</\1>|<[^>]+>", " ", text, flags=re.DOTALL))
-        count.update(re.findall(r"(?<!\w)[^\W\d]\w{3,}", text.lower()))
+        words = html.unescape(NOT_READ.sub(" ", text)).lower()
+        count.update(re.findall(r"(?<!\w)[^\W\d]\w{3,}", words))
     return [word for word, _ in count.most_common()]
 
 

@@ -30,6 +30,9 @@ C = (
     ("geometry", "Contact geometry and conicity", "contact_functions conicity"),
     ("lookup", "Lookup tables", "lookup wheelset_use_lookup"),
 )
+# Names of methods, which docstrings speak of.
+METHODS = ("``NORMAL`` and ``TANGENTIAL`` have the names of the command line's `methods "
+           "<../docs/usage.html#methods>`__.\n")
 PYTHON = (
     ("contact", "One contact", "Contact Result Step Strips Elements Material Friction"),
     ("many", "Many contacts", "solve_many ManyResult"),
@@ -139,8 +142,8 @@ class Header:
         named = [number for number in self.errors if re.search(rf"(?<![\w.:]){number}(?!\w|\.\d)|"
                  rf"FASTSTRIP_{self.errors[number].upper()}\b", item.words)]
         told = ", ".join(self.error(number, self.errors[number]) for number in named)
-        return f":returns: a :c:enum:`faststrip_status`" + (f"; see above for {told}" if told
-                                                            else "")
+        return ":returns: a :c:enum:`faststrip_status`" + (f"; see above for {told}" if told
+                                                           else "")
 
 
 def first_sentence(text):
@@ -180,7 +183,7 @@ def python_pages():
         sys.exit(f"interfaces: Python's {', '.join(sorted(missing))}: not once on a page")
     texts, lists = {}, []
     for file, words, names in PYTHON:
-        entries = []
+        entries = [METHODS] if file in ("contact", "many") else []
         for name in names.split():
             if name[0].islower():
                 entries.append(f".. autofunction:: faststrip.{name}\n")
@@ -206,7 +209,8 @@ def fortran_77():
 
     constants = Constants()
     lines = ["# Fortran 77 interface", "", "Calls, with what each takes and gives, and the places "
-             "of their arrays. [Embedding](docs/embedding.md#fixed-form-fortran) tells how to use them.", ""]
+             "of their arrays. [Embedding](docs/embedding.md#fixed-form-fortran) tells how to use "
+             "them.", ""]
     for name, about in FACE.items():
         rows = list(call_rows(constants, [name]))
         places = list(place_rows([name]))
@@ -253,7 +257,7 @@ def fortran(api):
             if constants:
                 lines.append(f"- {', '.join(constants)}: constants")
         lines.append("")
-    for heading, wanted in (("Modules", True), ("Types, procedures and interfaces by module", False)):
+    for heading, wanted in (("Modules", True), ("All types and procedures", False)):
         lines += [f"## {heading}", ""]
         lines += [f"- {words}" for (is_module, _), words in found.items() if is_module is wanted]
         lines.append("")
