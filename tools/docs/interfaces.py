@@ -4,6 +4,7 @@ sources, and what leads into FORD's pages of Fortran."""
 from __future__ import annotations
 
 import ast
+import itertools
 import pathlib
 import re
 import sys
@@ -116,7 +117,7 @@ class Header:
         return max(found)[1]
 
     def entry(self, item: Item):
-        """Text, arguments and what comes back."""
+        """Text, arguments, those of like words together, and what comes back."""
         role = {"func": "function"}.get(ROLES[item.kind], ROLES[item.kind])
         body = [self.words(item.words)]
         if item.like:
@@ -134,15 +135,18 @@ class Header:
             shown = "\n              ".join(part.shown for part in group)
             body.append(f".. c:member:: {shown}\n\n{indented(self.words(group[0].words))}")
         if item.kind == "function":
-            body.append("".join(f":param {name}: {self.words(words)}\n"
-                                for name, words in item.arguments) + self.returned(item))
+            rows = []
+            for words, same in itertools.groupby(item.arguments, key=lambda one: one[1]):
+                names = ", ".join(f"``{name}``" for name, _ in same)
+                rows.append(f"   - {names}: {self.words(words)}\n")
+            body.append(":arguments:\n" + "".join(rows) + self.returned(item))
         return f".. c:{role}:: {item.shown}\n\n" + indented("\n\n".join(filter(None, body)))
 
     def returned(self, item):
         named = [number for number in self.errors if re.search(rf"(?<![\w.:]){number}(?!\w|\.\d)|"
                  rf"FASTSTRIP_{self.errors[number].upper()}\b", item.words)]
         told = ", ".join(self.error(number, self.errors[number]) for number in named)
-        return ":returns: a :c:enum:`faststrip_status`" + (f"; see above for {told}" if told
+        return ":returns: a :c:enum:`faststrip_status`" + (f"; errors named here: {told}" if told
                                                            else "")
 
 
@@ -255,7 +259,8 @@ def fortran(api):
                     constants.append(f'<a href="api/module/{module}.html#variable-{name}">{name}'
                                      "</a>")
             if constants:
-                lines.append(f"- {', '.join(constants)}: constants")
+                kind = "constant" if len(constants) == 1 else "constants"
+                lines.append(f"- {', '.join(constants)}: {kind}")
         lines.append("")
     for heading, wanted in (("Modules", True), ("All types and procedures", False)):
         lines += [f"## {heading}", ""]

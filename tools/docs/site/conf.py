@@ -19,7 +19,6 @@ autodoc_member_order, autodoc_typehints = "bysource", "none"
 default_role = "py:obj"
 maximum_signature_line_length = 80
 toc_object_entries_show_parents = "hide"
-smartquotes = False
 html_theme = "furo"
 html_static_path, html_css_files = ["site.css", "search.js"], ["site.css"]
 html_title = "faststrip"
