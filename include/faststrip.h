@@ -30,13 +30,15 @@
 extern "C" {
 #endif
 
+/* Version of this header; faststrip_version has that of the library. */
 #define FASTSTRIP_VERSION "0.1.0"
 
 /* Room for any text of this library, characters. */
 #define FASTSTRIP_TEXT 257
 
+/* How a call ended: 0, a result with a limitation, or, from 100 on, an error. */
 enum faststrip_status {
-    FASTSTRIP_OK = 0,
+    FASTSTRIP_OK = 0,            /* all is well */
     FASTSTRIP_FALLBACK_USED = 1, /* a fixed lattice gave the answer: patch ends did not settle */
     FASTSTRIP_EDGE_OF_DATA = 2,  /* the contact runs to the end of the gap's points */
     FASTSTRIP_FEWER_STRIPS = 3,  /* more strips did not settle */
@@ -48,25 +50,26 @@ enum faststrip_status {
     FASTSTRIP_MORE_STRIPS = 9,   /* more strips than were asked for gave the answer */
     FASTSTRIP_BEYOND_YIELD = 10, /* pmax is above a limit; the command line's, not given here */
     FASTSTRIP_NO_WAVE = 11,      /* a conicity: no motion about the equilibrium turns there */
-    FASTSTRIP_FIRST_ERROR = 100,
-    FASTSTRIP_BAD_ARGUMENT = 100,
-    FASTSTRIP_NOT_FINITE = 101,
-    FASTSTRIP_NOT_INCREASING = 102,
-    FASTSTRIP_TOO_FEW_POINTS = 103,
-    FASTSTRIP_BAD_MATERIAL = 104,
-    FASTSTRIP_BAD_LOAD = 105,
-    FASTSTRIP_NO_CONTACT = 106,
-    FASTSTRIP_NO_HERTZ_ELLIPSE = 107,
-    FASTSTRIP_NO_CONVERGENCE = 108,
-    FASTSTRIP_OUT_OF_RANGE = 109,
-    FASTSTRIP_WORKSPACE_TOO_SMALL = 110,
-    FASTSTRIP_LINEAR_ALGEBRA = 111,
-    FASTSTRIP_NO_FINITE_PATCH = 113,
+    FASTSTRIP_FIRST_ERROR = 100, /* statuses below are results */
+    FASTSTRIP_BAD_ARGUMENT = 100,        /* a setting that cannot be, a pointer to nothing */
+    FASTSTRIP_NOT_FINITE = 101,          /* a number is NaN or infinite */
+    FASTSTRIP_NOT_INCREASING = 102,      /* y does not increase from point to point */
+    FASTSTRIP_TOO_FEW_POINTS = 103,      /* of a gap, a profile, a table */
+    FASTSTRIP_BAD_MATERIAL = 104,        /* Young's modulus or Poisson's ratio out of range */
+    FASTSTRIP_BAD_LOAD = 105,            /* the load is not above 0 */
+    FASTSTRIP_NO_CONTACT = 106,          /* the bodies do not touch */
+    FASTSTRIP_NO_HERTZ_ELLIPSE = 107,    /* relative curvature is not positive */
+    FASTSTRIP_NO_CONVERGENCE = 108,      /* no answer within the bounded work, or none exists */
+    FASTSTRIP_OUT_OF_RANGE = 109,        /* beyond what can be computed, or beyond a table */
+    FASTSTRIP_WORKSPACE_TOO_SMALL = 110, /* less capacity than the call needs */
+    FASTSTRIP_LINEAR_ALGEBRA = 111,      /* equations that double precision cannot solve */
+    FASTSTRIP_NO_FINITE_PATCH = 113,     /* flat or hollow along x: the patch has no end */
     FASTSTRIP_FILE_MISSING = 120, /* of faststrip_read_profile: there is none, or none to be read */
-    FASTSTRIP_FILE_FORMAT = 121
+    FASTSTRIP_FILE_FORMAT = 121          /* what stands in a file is not what should */
 };
 
 /* BEGIN methods, written by tools/generate/methods.py */
+/* The normal methods. */
 enum faststrip_normal {
     FASTSTRIP_NORMAL_STRIP = 1,         /* strips, for any patch and any number of patches */
     FASTSTRIP_NORMAL_HERTZ = 2,         /* the Hertz ellipse where the gap is lowest */
@@ -78,6 +81,7 @@ enum faststrip_normal {
     FASTSTRIP_NORMAL_KPEC_STRIPS = 9    /* strips in the patch of KPEC, pressures their own */
 };
 
+/* The tangential methods. */
 enum faststrip_tangential {
     FASTSTRIP_TANGENTIAL_NONE = 0,                /* no forces */
     FASTSTRIP_TANGENTIAL_FASTSTRIP = 1,           /* marching in the strips: the best fast one */
@@ -106,7 +110,7 @@ enum faststrip_target {
  * half_slip_speed. Refused (100) but of FASTSTRIP, FASTSTRIP_PLAIN and the three methods FASTSIM;
  * no errors of such forces are estimated (FASTSTRIP_UNDER_RESOLVED). */
 enum faststrip_friction {
-    FASTSTRIP_FRICTION_CONSTANT = 0,
+    FASTSTRIP_FRICTION_CONSTANT = 0,   /* f = 1 */
     FASTSTRIP_FRICTION_LINEAR = 2,     /* f = max(0, 1 - s/(2 h)) */
     FASTSTRIP_FRICTION_RATIONAL = 3,   /* f = 1/(1 + s/h) */
     FASTSTRIP_FRICTION_EXPONENTIAL = 4 /* f = 2^(-s/h) */
@@ -194,6 +198,7 @@ typedef struct faststrip_result {
     double est_err_target;  /* estimated error of the target of auto */
 } faststrip_result;
 
+/* Memory of one contact: capacity, gap, last solution. From faststrip_new. */
 typedef struct faststrip_workspace faststrip_workspace;
 
 /* The library's version, three numbers with points between. */
@@ -376,7 +381,7 @@ int faststrip_profile_gap(int n_wheel, const double *y_wheel, const double *z_wh
 typedef struct faststrip_wheelset_setup {
     size_t size;          /* of this struct; set by faststrip_default_wheelset */
     double radius_right;  /* nominal radius, at y = 0 of the wheel's profile */
-    double radius_left;
+    double radius_left;   /* the same of the left wheel */
     double back_spacing;  /* distance of the flange backs; 0: that which belongs to the gauge, 1360
                            * to 1435, 1440 to 1520 */
     double tread_line;    /* flange back to nominal rolling circle */
@@ -397,9 +402,9 @@ typedef struct faststrip_wheelset_setup {
  * a file. Names may have capital letters. A left one of neither is as the right one. */
 typedef struct faststrip_profile {
     const char *name; /* null: by points */
-    const double *y;
-    const double *z;
-    int n;
+    const double *y;  /* of the points, to the field side, mm */
+    const double *z;  /* down, mm */
+    int n;            /* number of points */
 } faststrip_profile;
 
 /* The gap of a right wheel on a right rail as faststrip_profile_gap gives it, of profiles by name,
@@ -502,6 +507,7 @@ typedef struct faststrip_wheelset_state {
                                    * pitch_rate is the mean of both */
 } faststrip_wheelset_state;
 
+/* What a wheelset's height and roll follow from. */
 enum faststrip_demand {
     FASTSTRIP_BY_POSITION = 0, /* z and roll are those of the state */
     FASTSTRIP_BY_LOADS = 1,    /* each wheel has a vertical force, and a z of its own unless the
@@ -511,10 +517,11 @@ enum faststrip_demand {
                                 * the state do not count, and there are no friction forces */
 };
 
+/* Which wheels are solved; which one a contact is of. */
 enum faststrip_wheels {
-    FASTSTRIP_BOTH_WHEELS = 0,
-    FASTSTRIP_RIGHT_WHEEL = 1,
-    FASTSTRIP_LEFT_WHEEL = 2
+    FASTSTRIP_BOTH_WHEELS = 0, /* of a demand only */
+    FASTSTRIP_RIGHT_WHEEL = 1, /* in y > 0 */
+    FASTSTRIP_LEFT_WHEEL = 2   /* in y < 0 */
 };
 
 /* What is prescribed. */
@@ -524,8 +531,8 @@ typedef struct faststrip_wheelset_demand {
     int roll_is_free;   /* 1: the roll is found; of both wheels and their loads only */
     int warm_start;     /* 1: start from the last solution, if there is one, which is faster; the
                          * last digits then depend on it */
-    double load_right;  /* vertical forces, N */
-    double load_left;
+    double load_right;  /* vertical force of the right wheel, N */
+    double load_left;   /* of the left wheel, N */
     double axle_load;   /* N */
     double roll_moment; /* about the wheelset's centre along the track, that the frame exerts on it;
                          * with an axle load and a free roll, N mm */
@@ -538,9 +545,9 @@ typedef struct faststrip_wheelset_demand {
 typedef struct faststrip_wheelset_contact {
     int side;              /* FASTSTRIP_RIGHT_WHEEL or FASTSTRIP_LEFT_WHEEL */
     int status;            /* of its solution, a named limitation or 0 */
-    int n_patches;
+    int n_patches;         /* these four as in faststrip_result */
     int strips_across;
-    int is_estimated;      /* as in faststrip_result */
+    int is_estimated;
     int forces_are_estimated;
     double place[3];       /* of the reference point in the track, mm */
     double angle;          /* contact angle, rad */
@@ -548,21 +555,21 @@ typedef struct faststrip_wheelset_contact {
     double wheel[3];       /* x, y, z of it in the frame of the wheel's profile, mm */
     double radius;         /* rolling radius, mm */
     double speed;          /* rolling speed, mm/s */
-    double cksi;           /* creepages from rigid-body kinematics */
-    double ceta;
-    double cphi;           /* rad/mm */
+    double cksi;           /* longitudinal creepage, from rigid-body kinematics */
+    double ceta;           /* lateral creepage */
+    double cphi;           /* spin, rad/mm */
     double load;           /* normal force, N */
     double penetration;    /* mm */
-    double area;           /* mm^2 */
-    double pmax;           /* MPa */
+    double area;           /* contact area, mm^2 */
+    double pmax;           /* maximum pressure, MPa */
     double y_min;          /* ends of the contact from the reference point, mm */
     double y_max;
-    double x_max;          /* mm */
+    double x_max;          /* largest half-length along x, mm */
     double fx;             /* longitudinal force, N */
     double fy;             /* in the tangent plane, to the right, N */
     double mz;             /* about the normal, N mm */
-    double friction_power; /* N */
-    double stick_fraction;
+    double friction_power; /* frictional work per distance rolled, N */
+    double stick_fraction; /* share of the area in adhesion */
     double force[3];       /* in the track, N */
     double force_wheelset[3]; /* the same in the wheelset's frame, N */
     double moment[3];      /* about the wheelset's centre, in the track, N mm */
@@ -574,7 +581,7 @@ typedef struct faststrip_wheelset_contact {
     double est_err_mz;
     double est_err_load;   /* by how much profiles that are .5 um wrong may move the load, over it;
                             * in proportion for others. One contact under a given load: 0 */
-    int limitations;       /* as in faststrip_result */
+    int limitations;       /* these three as in faststrip_result */
     int n_strips;
     int n_elements;
 } faststrip_wheelset_contact;
@@ -582,7 +589,7 @@ typedef struct faststrip_wheelset_contact {
 /* What the contacts of each wheel come to, right and left; zero for one that was not asked for. */
 typedef struct faststrip_wheelset_result {
     int status[2];     /* the worst of its contacts */
-    int n_contacts[2];
+    int n_contacts[2]; /* number of contacts */
     int n_solutions[2]; /* contact problems that were solved */
     double z[2];       /* of the wheelset's centre, mm */
     double roll;       /* rad */
@@ -591,6 +598,7 @@ typedef struct faststrip_wheelset_result {
     double moment[2][3]; /* about the wheelset's centre, in the track, N mm */
 } faststrip_wheelset_result;
 
+/* Profiles, memory and last solution of a wheelset. From faststrip_wheelset_new. */
 typedef struct faststrip_wheelset faststrip_wheelset;
 
 /* Standard gauge, wheels of 460 mm, FASTSTRIP_INCLINATION_UNSET. length is sizeof setup. */
@@ -686,7 +694,11 @@ int faststrip_wheelset_last_message(const faststrip_wheelset *wheelset, char *te
  * may share one. */
 typedef struct faststrip_lookup faststrip_lookup;
 
-enum faststrip_lookup_order { FASTSTRIP_LINEAR = 1, FASTSTRIP_CUBIC = 3 };
+/* How a table is interpolated. */
+enum faststrip_lookup_order {
+    FASTSTRIP_LINEAR = 1, /* between its nodes, with kinks there */
+    FASTSTRIP_CUBIC = 3   /* by cubic polynomials, smooth and mostly more accurate */
+};
 
 /* Open a table from the bytes of its file, which are copied and may go. What is damaged, cut or of
  * another version is rejected (121), in words too if text is not null. This allocates,

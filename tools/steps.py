@@ -575,6 +575,7 @@ def install_browser():
 
 def python_tests(text):
     has_packages(text, "fmu", "FMPy")
+    has_packages(text, "docs", "FORD and Sphinx")
     why = has_packages(text, "explore", "Bokeh and selenium") and install_browser()
     if why:
         print(f"the page is not tested in a browser: {why}", flush=True)

@@ -154,6 +154,17 @@ class OfTheProject(unittest.TestCase):
                 if codes[word] < 100:
                     self.assertRegex(printed, rf"(?m)^status +{word}$")
 
+    def test_every_error_has_symptoms_of_its_own(self):
+        text = (ROOT / "docs" / "errors.md").read_text(encoding="utf-8")
+        symptoms = document.symptoms_of(text)
+        self.assertEqual(list(symptoms), re.findall(r"(?m)^### (\w+)$", text))
+        each = [one for many in symptoms.values() for one in many]
+        self.assertEqual(len(each), len(set(each)))
+        self.assertEqual([one for one in each if not re.fullmatch(r"[\w' -]+", one)], [])
+        for word, one in (("no_convergence", "wheel lift"), ("no_contact", "derailed"),
+                          ("not_finite", "NaN forces")):
+            self.assertIn(one, symptoms[word])
+
     def test_the_readme_is_one_to_read(self):
         lines = (ROOT / "README.md").read_text(encoding="utf-8").splitlines()
         self.assertLessEqual(len(lines), 150)
@@ -204,13 +215,18 @@ class Tools(unittest.TestCase):
     def test_the_first_page_has_the_navigation(self):
         text = document.for_sphinx("# faststrip\n", "README.md")
         self.assertEqual(text.count("{toctree}"), len(document.GROUPS))
-        for words, file in [*document.PAGES[1:], document.API]:
-            self.assertIn(f"\n{words} <{file.removesuffix('.md')}>\n", text)
+        for words, file in [*document.PAGES[1:], *document.MADE]:
+            self.assertIn(f"\n{words} <{file.rpartition('.')[0]}>\n", text)
 
     def test_pictures_are_named_outside_of_code(self):
         text = ("<!-- picture: out/a.png Two\nwords. -->\n\n```text\n<!-- picture: b.png no -->\n"
                 "```\n")
         self.assertEqual(pages.pictures(text), [("out/a.png", "Two words.")])
+
+    def test_words_of_pages_are_those_that_are_read(self):
+        texts = ["<script>never</script><p>Slip slip&#x2013;slip: <b>strip</b> 1234 abc</p>",
+                 "<math><mi>mathematics</mi></math> est_err_fx strip"]
+        self.assertEqual(document.words_of(texts), ["slip", "strip", "est_err_fx"])
 
     def test_ford_is_given_lengths_without_commas(self):
         for text, wanted in (

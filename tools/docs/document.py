@@ -10,6 +10,10 @@ leads nowhere.
 """
 
 import argparse
+import collections
+import html
+import json
+import os
 import pathlib
 import re
 import shutil
@@ -18,13 +22,18 @@ import sys
 import tempfile
 
 import blocks
+import interfaces
 from pages import FILE, PICTURE, links, pictures, strange_formulas
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITE = ROOT / "out" / "docs"
-# The navigation: groups of pages, what they are called there, file. Between the pages of the
-# project stands that of the Fortran interface, which is made here.
-API = ("Fortran interface", "interface.md")
+# Pages of the interfaces, which are made here.
+MADE = (
+    ("Python", "python.rst"),
+    ("C", "c.rst"),
+    ("Fortran", "fortran.md"),
+    ("Fortran 77", "fortran77.md"))
+# The navigation: groups of pages, what they are called there, file.
 GROUPS = (
     ("Getting started", (
         ("faststrip", "README.md"),
@@ -45,8 +54,8 @@ GROUPS = (
         ("Limitations and errors", "docs/errors.md"),
         ("From FASTSIM or CONTACT", "docs/migration.md"),
         ("Embedding", "docs/embedding.md"),
-        ("Common mistakes", "docs/traps.md"),
-        API)),
+        ("Common mistakes", "docs/traps.md"))),
+    ("Interfaces", MADE),
     ("Theory and development", (
         ("Method", "docs/method.md"),
         ("Validation", "docs/validation.md"),
@@ -60,9 +69,12 @@ GROUPS = (
         ("Contributing", "CONTRIBUTING.md"),
         ("Changes", "CHANGELOG.md"))),
 )
-PAGES = tuple(page for _, pages in GROUPS for page in pages if page != API)
+PAGES = tuple(page for _, pages in GROUPS for page in pages if page not in MADE)
 # What stands before a paper, whose sections are headings of the first level.
 FRONT = re.compile(r"---\n.*?^title: '(?P<title>[^']*)'$.*?^---\n", re.MULTILINE | re.DOTALL)
+# What an error is known by: the first words of its entry.
+SYMPTOMS = re.compile(r"^### (\w+)\n\n\*Symptoms: (.*?)\.\*\n", re.MULTILINE | re.DOTALL)
+NOT_READ = re.compile(r"<(script|style|math)\b.*?</\1>|<[^>]+>", re.DOTALL)
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//|(?:mailto|data):")
 # A length that is asked with several arguments.
 LENGTH = re.compile(r"\b(character\(len=)(\w+)\([^()]*,[^()]*\)\)", re.IGNORECASE)
@@ -80,6 +92,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         gather(pathlib.Path(folder))
         build_pages(folder)
+    write_words()
     broken = sorted(broken_targets())
     if broken:
         sys.exit("\n".join(broken))
@@ -90,17 +103,17 @@ def readable(text):
     return LENGTH.sub(r"\1\2)", text)
 
 
-def build_api():
-    """FORD's pages, made independent of the network."""
+def build_api(sources=ROOT / "src", page=ROOT / "docs" / "ford.md"):
+    """FORD's pages of the sources in a folder, made independent of the network."""
     ford = pathlib.Path(sys.executable).parent / "ford"
     with tempfile.TemporaryDirectory() as folder:
-        for path in (ROOT / "src").rglob("*.f90"):
-            if "build" not in path.relative_to(ROOT).parts:
-                copy = pathlib.Path(folder, path.relative_to(ROOT))
+        for path in sources.rglob("*.f90"):
+            if "build" not in path.relative_to(sources).parts:
+                copy = pathlib.Path(folder, "src", path.relative_to(sources))
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 copy.write_text(readable(path.read_text(encoding="utf-8")), encoding="utf-8")
-        done = subprocess.run([str(ford), "--src_dir", f"{folder}/src",
-                               str(ROOT / "docs" / "ford.md")], cwd=ROOT,
+        done = subprocess.run([str(ford), "--src_dir", f"{folder}/src", "--output_dir",
+                               str(SITE / "api"), str(page)], cwd=ROOT,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
                               check=False)
     warnings = [line for line in done.stdout.splitlines() if "warning" in line.lower()]
@@ -133,7 +146,8 @@ def gather(folder):
             copy(file, folder / file.relative_to(ROOT.resolve()))
         make_pictures(text, folder)
         copy_text(for_sphinx(text, source), folder / source)
-    copy_text(interface(), folder / API[1])
+    for source, text in interfaces.pages(SITE / "api").items():
+        copy_text(text, folder / source)
 
 
 def copy(file, target):
@@ -169,7 +183,7 @@ def for_sphinx(text, source):
     if source != "README.md":
         return text
     for name, pages in GROUPS:
-        entries = "\n".join(f"{words} <{file.removesuffix('.md')}>" for words, file in pages
+        entries = "\n".join(f"{words} <{file.rpartition('.')[0]}>" for words, file in pages
                             if file != source)
         text += f"\n```{{toctree}}\n:hidden:\n:caption: {name}\n\n{entries}\n```\n"
     return text
@@ -180,7 +194,7 @@ def build_pages(folder):
     done = subprocess.run([sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "-j", "auto",
                            "-D", "root_doc=README", folder, str(SITE)], cwd=ROOT,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
-                          check=False)
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")}, check=False)
     if done.returncode != 0:
         sys.exit(done.stdout)
     shutil.rmtree(SITE / ".doctrees", ignore_errors=True)
@@ -189,21 +203,29 @@ def build_pages(folder):
         '<a href="README.html">faststrip</a>\n', encoding="utf-8")
 
 
-def interface():
-    """A page that leads into FORD's: its modules, types and procedures, which the search finds."""
-    lines = ["# Fortran interface", "", '<a href="api/index.html">All of it</a>: modules, their '
-             "types and procedures, made from the sources.", ""]
-    for kind, title in (("module", "Modules"), ("type", "Types"), ("proc", "Procedures"),
-                        ("interface", "Interfaces")):
-        lines += [f"## {title}", ""]
-        for path in sorted((SITE / "api" / kind).glob("*.html")):
-            text = path.read_text(encoding="utf-8")
-            name = re.search(r"<title>\s*(\S+)", text)[1]
-            summary = re.search(r"id='text'>.*?<p>(.*?)</p>", text, re.DOTALL)
-            words = " ".join(re.sub(r"<[^>]+>", " ", summary[1]).split()) if summary else ""
-            lines.append(f'- <a href="{path.relative_to(SITE).as_posix()}">{name}</a> {words}')
-        lines.append("")
-    return "\n".join(lines)
+def words_of(texts):
+    """The words of pages, the most frequent first."""
+    count = collections.Counter()
+    for text in texts:
+        words = html.unescape(NOT_READ.sub(" ", text)).lower()
+        count.update(re.findall(r"(?<!\w)[^\W\d]\w{3,}", words))
+    return [word for word, _ in count.most_common()]
+
+
+def symptoms_of(text):
+    """Of each error of docs/errors.md what it is known by."""
+    return {word: [" ".join(one.split()) for one in words.split(",")]
+            for word, words in SYMPTOMS.findall(text)}
+
+
+def write_words():
+    """What the search knows beside Sphinx's index."""
+    texts = [path.read_text(encoding="utf-8") for path in SITE.rglob("*.html")
+             if "api" not in path.relative_to(SITE).parts]
+    symptoms = symptoms_of((ROOT / "docs" / "errors.md").read_text(encoding="utf-8"))
+    (SITE / "_static" / "words.js").write_text(
+        f"const WORDS = {json.dumps(words_of(texts), ensure_ascii=False)};\n"
+        f"const SYMPTOMS = {json.dumps(symptoms)};\n", encoding="utf-8")
 
 
 def broken_targets():

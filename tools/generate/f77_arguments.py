@@ -99,8 +99,8 @@ def calls(name, constants):
         yield match[1], f"{match[1]}({match[2]})", arguments
 
 
-def call_rows(constants):
-    for name in FACE:
+def call_rows(constants, names=FACE):
+    for name in names:
         for _name, shown, arguments in calls(name, constants):
             cells = {"in": [], "out": []}
             for names, _, intent, words in arguments:
@@ -115,8 +115,8 @@ def call_rows(constants):
             yield f"| `{shown}` | {'; '.join(cells['in'])} | {'; '.join(cells['out'])} |"
 
 
-def place_rows():
-    for name, about in FACE.items():
+def place_rows(names=FACE):
+    for name in names:
         head = source(name).read_text(encoding="utf-8").split("\nmodule ")[0]
         found = []
         for block in re.findall(r"(?s)!> ```\n(.*?)!> ```", head):
@@ -129,7 +129,7 @@ def place_rows():
                     else:
                         found[-1][1] += f" {part.strip()}"
         for place, words in found:
-            yield f"| {about} | `{place}` | {words} |"
+            yield f"| {FACE[name]} | `{place}` | {words} |"
 
 
 def tables():

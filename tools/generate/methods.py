@@ -126,7 +126,7 @@ def header(methods):
         entries = [f"    FASTSTRIP_{m.constant().upper()} = {m.number}" for m in rows]
         entries = [f"{entry}{',' if i < len(rows) - 1 else ''}" for i, entry in enumerate(entries)]
         width = max(map(len, entries))
-        lines += ["", f"enum faststrip_{part} {{"]
+        lines += ["", f"/* The {part} methods. */", f"enum faststrip_{part} {{"]
         for entry, method in zip(entries, rows):
             lines.append(f"{entry:{width}} /* {told(method)} */")
         lines.append("};")

@@ -25,7 +25,7 @@ module faststrip_wheelset_derivatives
 
     public :: find_wheelset_derivatives
 
-    !> Given: columns of derivatives.
+    ! Given: columns of derivatives.
     integer, parameter :: n_coordinates = 4
     ! Given: in which order they are looked at: the outline for z is that of the solution.
     integer, parameter :: order(n_coordinates) = [1, 3, 4, 2]

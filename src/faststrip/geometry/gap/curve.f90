@@ -351,9 +351,9 @@ contains
         curve%has_steps = .false.
     end subroutine set_slopes
 
-    !> -1: the gap counts as a mirror image; 1: its mirror image does; 0: it is its own. The image
-    !> is that which is lower, or has its point farther from y = 0, or the smaller longitudinal
-    !> term, at the first point that tells it from the other.
+    !> Returns -1 where the gap counts as a mirror image, 1 where its mirror image does, 0 where it
+    !> is its own. The image is that which is lower, or has its point farther from y = 0, or the
+    !> smaller longitudinal term, at the first point that tells it from the other.
     pure integer function side_of(y, h, inv2r) result(side)
         real(wp), intent(in) :: y(:), h(:), inv2r(:)
 
