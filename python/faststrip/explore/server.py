@@ -73,7 +73,7 @@ def serve(fill: Any, port: int, with_browser: bool) -> int:
     from bokeh.application.handlers.function import FunctionHandler
     from bokeh.server.server import Server
 
-    from .template import TEMPLATE
+    from .look import TEMPLATE
 
     logging.getLogger("bokeh").setLevel(logging.ERROR)
     logging.getLogger("tornado.access").setLevel(logging.CRITICAL)

@@ -13,9 +13,11 @@ import numpy as np
 import numpy.typing as npt
 
 from .._contact import Contact
-from .._library import FaststripError
+from .._library import FIRST_ERROR, FaststripError
+from .._many import solve_many
 from .._profile import draw_profile, profile_gap
 from .._results import Elements, Result, Strips
+from .._wear import Wear
 from .._wheelset import Wheelset
 from .case import RADIUS, Case
 
@@ -25,6 +27,10 @@ CURVE_POINTS = 31
 PROFILE_POINTS = 501
 ROLLING_SPEED = 2.0e4  # mm/s; only ratios of speeds count
 AXES = {"cksi": 0, "ceta": 1, "cphi": 2}
+# Displacements of a sweep, mm, and creepages of a map along each side.
+SWEEP = np.linspace(-10.0, 10.0, 41)
+MAP_POINTS = 21
+JUMP = 4.0  # mm on the wheel from one displacement to the next: the contact is another one
 # Half the width of a creep curve: the first that holds the creepage.
 WIDTHS = {"cksi": (0.005, 0.01, 0.02), "ceta": (0.005, 0.01, 0.02), "cphi": (0.0004, 0.001)}
 
@@ -55,6 +61,7 @@ class Answer(NamedTuple):
     strips: Optional[Strips]
     elements: Optional[Elements]
     error: str = ""
+    wear: Optional[Wear] = None
 
 
 class Curve(NamedTuple):
@@ -63,6 +70,15 @@ class Curve(NamedTuple):
     creepage: Array
     fx: Dict[str, Array]
     fy: Dict[str, Array]
+
+
+class Survey(NamedTuple):
+    """What takes longer than one contact: maximum pressures over the lateral displacement, and
+    forces over two creepages."""
+
+    pressure: Dict[str, Array]  #: MPa at each of SWEEP; nan before a jump and where there is none
+    half: Tuple[float, float]  #: of the creepages of the map
+    part: Array  #: force over mu N; rows of lateral, columns of longitudinal creepages
 
 
 @dataclasses.dataclass
@@ -95,16 +111,11 @@ class Outcome:
 METHODS = {"strips": ("strip", "faststrip"), "hertz": ("hertz", "fastsim")}
 
 
-class Solver:
-    """Contacts and wheelsets that are kept from one change to the next; of one thread."""
+class Kept:
+    """Solutions that are kept, with what they took."""
 
     def __init__(self) -> None:
-        self._contacts = {name: Contact(normal=normal, tangential=tangential, with_elements=True)
-                          for name, (normal, tangential) in METHODS.items()}
-        self._curves = {name: Contact(normal=normal, tangential=tangential, estimate=False)
-                        for name, (normal, tangential) in METHODS.items()}
         self._kept: Dict[str, Tuple[Any, Any]] = {}
-        self._wheelset: Tuple[Any, Optional[Wheelset]] = None, None
         self.times: Dict[str, float] = {}
 
     def _once(self, name: str, key: Any, make: Callable[[], Any]) -> Any:
@@ -118,16 +129,30 @@ class Solver:
         self._kept[name] = key, made
         return made
 
-    def solve(self, case: Case, axis: str = "cksi") -> Outcome:
-        """Everything of a case; errors of a method stand in its place."""
-        outcome = Outcome(case, axis=axis)
-        pair = case.wheel, case.rail
-        outcome.profiles = self._once("profiles", (*pair, case.inclination), lambda: (
+    def _profiles(self, case: Case) -> Any:
+        """Points of wheel and rail, to be drawn."""
+        return self._once("profiles", case.pair, lambda: (
             draw_profile(case.wheel.profile, "wheel", n=PROFILE_POINTS),
             draw_profile(case.rail.profile, "rail", inclination=case.inclination,
                          n=PROFILE_POINTS)))
-        outcome.where = where = (*pair, case.inclination, case.is_vertical, case.shift, case.yaw,
-                                 case.load)
+
+
+class Solver(Kept):
+    """Contacts and wheelsets that are kept from one change to the next; of one thread."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._contacts = {name: Contact(normal=normal, tangential=tangential, with_elements=True)
+                          for name, (normal, tangential) in METHODS.items()}
+        self._curves = {name: Contact(normal=normal, tangential=tangential, estimate=False)
+                        for name, (normal, tangential) in METHODS.items()}
+        self._wheelset: Tuple[Any, Optional[Wheelset]] = None, None
+
+    def solve(self, case: Case, axis: str = "cksi") -> Outcome:
+        """Everything of a case; errors of a method stand in its place."""
+        outcome = Outcome(case, axis=axis)
+        outcome.profiles = self._profiles(case)
+        outcome.where = where = (*case.pair, case.is_vertical, case.shift, case.yaw, case.load)
         outcome.motion = motion = (*where, *case.creepage, case.mu)
         geometry = self._once("gap", where if case.yaw else where[:-1],
                               lambda: self._find_geometry(case))
@@ -139,7 +164,7 @@ class Solver:
             outcome.geometry = geometry
             for name in METHODS:
                 make = functools.partial(self._answer, name, geometry, case)
-                outcome.answers[name] = self._once(name, motion, make)
+                outcome.answers[name] = self._once(name, (motion, case.yield_shear), make)
             half = half_width(axis, getattr(case, axis))
             others = tuple(value for k, value in enumerate(case.creepage) if k != AXES[axis])
             outcome.curve = self._once("curve", (*where, case.mu, axis, half, others),
@@ -168,7 +193,7 @@ class Solver:
         return Geometry(wheelset.gap(most), contact.load, places[most], places, contact.radius)
 
     def _wheelset_of(self, case: Case) -> Wheelset:
-        key = case.wheel, case.rail, case.inclination
+        key = case.pair
         if self._wheelset[0] != key or self._wheelset[1] is None:
             self._wheelset = key, Wheelset(case.wheel.profile, case.rail.profile, radius=RADIUS,
                                            inclination=case.inclination, tangential="none",
@@ -185,7 +210,8 @@ class Solver:
         try:
             contact.set_gap(*geometry.gap)
             result = contact.solve(load=geometry.load, creepage=case.creepage, mu=case.mu)
-            return Answer(result, contact.strips(), contact.elements())
+            return Answer(result, contact.strips(), contact.elements(),
+                          wear=contact.wear(yield_shear=case.yield_shear))
         except FaststripError as problem:
             return Answer(None, None, None, str(problem))
 
@@ -209,6 +235,42 @@ class Solver:
                 rows = [(math.nan, math.nan)] * len(values)
             fx[name], fy[name] = np.array(rows).T
         return Curve(values, fx, fy)
+
+    def survey(self, case: Case, creepages: Tuple[float, float]) -> Optional[Survey]:
+        """The sweep of a case and the map about its creepages; None where nothing touches."""
+        pressure = self._once("sweep", (*case.pair, case.is_vertical, case.yaw, case.load),
+                              lambda: self._sweep(case))
+        geometry = self._find_geometry(case)
+        if isinstance(geometry, str):
+            return None
+        geometry = geometry if case.yaw else loaded(geometry, case)
+        half = half_width("cksi", creepages[0]), half_width("ceta", creepages[1])
+        cksi, ceta = (np.linspace(-one, one, MAP_POINTS) for one in half)
+
+        def find() -> Array:
+            found = solve_many(geometry.gap, load=geometry.load, mu=case.mu, estimate=False,
+                               creepage=(cksi, ceta[:, None], case.cphi), threads=1)
+            part = np.hypot(found.fx, found.fy) / (case.mu * geometry.load)
+            return np.where(found.status < FIRST_ERROR, part, math.nan)
+
+        key = (*case.pair, case.is_vertical, case.shift, case.yaw, case.load, case.mu, case.cphi)
+        return Survey(pressure, half, self._once("map", (*key, half), find))
+
+    def _sweep(self, case: Case) -> Dict[str, Array]:
+        found = [self._find_geometry(dataclasses.replace(case, shift=y)) for y in SWEEP.tolist()]
+        there = [k for k, one in enumerate(found) if not isinstance(one, str)]
+        pressure = {name: np.full(len(SWEEP), math.nan) for name in METHODS}
+        if there:
+            bodies = [found[k] if case.yaw else loaded(found[k], case) for k in there]
+            for name, (normal, _) in METHODS.items():
+                many = solve_many([one.gap for one in bodies], load=[one.load for one in bodies],
+                                  normal=normal, tangential="none", estimate=False, threads=1)
+                pressure[name][there] = np.where(many.status < FIRST_ERROR, many.pmax, math.nan)
+        places = np.array([math.nan if isinstance(one, str) else one.place.y_wheel
+                           for one in found])
+        for values in pressure.values():
+            values[:-1][np.abs(np.diff(places)) > JUMP] = math.nan
+        return pressure
 
     def free_rolling(self, case: Case) -> Tuple[float, float, float]:
         """The creepages of a wheelset that rolls freely where the case has it."""
