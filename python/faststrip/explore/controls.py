@@ -18,9 +18,10 @@ from bokeh.models import (
 
 from .case import CONTROLS, ENDINGS, Case, Control, Shape, to_slider
 
+LEAST = 140  # px: of a frame with less columns than it would take
 NUMBER_STYLE = "input { padding: 0 6px !important; font-size: 12px; }"
 # The name of the file stands in the list above.
-FILE_STYLE = ("input { color: transparent; width: 100%; } "
+FILE_STYLE = ("input { color: transparent; width: 100%; border: 0; padding: 0; } "
               "input::file-selector-button { width: 100%; }")
 REFUSED_STYLE = ":host { color: #a0306a; font-size: 11.5px; } .bk-clearfix { white-space: normal; }"
 # Into the field: as it is written; from it: with a comma for a point, too, or refused beside it.
@@ -36,7 +37,7 @@ if (!fits) refused.text = `must be a number from ${low} to ${high}, got ${cb_obj
 refused.visible = !fits
 const input = Bokeh.index.find_one_by_id(cb_obj.id)?.input_el
 input?.setAttribute('aria-invalid', String(!fits))
-if (fits) slider.value = value
+if (fits && Number(slider.value.toPrecision(10)) !== value) slider.value = value
 """
 # What the page shows in as many columns as fit: frames of one shape, words at their upper edges.
 FIT = """
@@ -49,12 +50,13 @@ const fit = () => {
   for (const [k, figure] of figures.entries()) {
     const span = Math.min(n, spans[k])
     const frame_width = span * one + (span - 1) * beside
-    if (figure.frame_width === frame_width && figure.frame_height === high) continue
-    figure.setv({frame_width, frame_height: high}, {sync: false})
-    notes[k].setv({y: high - below}, {sync: false})
+    const frame_height = span < spans[k] ? Math.max(least, Math.round(high / spans[k])) : high
+    if (figure.frame_width === frame_width && figure.frame_height === frame_height) continue
+    figure.setv({frame_width, frame_height}, {sync: false})
+    notes[k].setv({y: frame_height - below}, {sync: false})
     if (spans[k] > 1) {
       const {x_range, y_range} = figure
-      const tall = (x_range.end - x_range.start) * high / frame_width
+      const tall = (x_range.end - x_range.start) * frame_height / frame_width
       y_range.setv({start: y_range.end + tall}, {sync: false})
     }
   }

@@ -26,7 +26,7 @@ from . import fields
 from .case import CONTROL
 from .look import AXIS, BODY, HERTZ, LOOKS, NORM, SLIP, SMALL, STRIPS
 from .picture import HEIGHT, WIDTH, Picture, first_above
-from .solving import AXES, MAP_POINTS, SWEEP, Curve, Outcome, Survey
+from .solving import AXES, MAP_POINTS, SWEEP, Curve, Outcome, Survey, half_width
 from .wire import Direct
 
 Array = npt.NDArray[np.float64]
@@ -114,12 +114,7 @@ class Patch(Picture):
             source=self.source("strips", "left right bottom top p0 y"),
             fill_color={"field": "p0", "transform": self.mapper}, line_color="white",
             line_width=0.6)
-        self.figure.add_layout(ColorBar(
-            color_mapper=self.mapper, orientation="horizontal", width=86, height=6, padding=2,
-            location=(WIDTH - 112, HEIGHT - 34), title="MPa", title_text_font_size="10px",
-            title_text_font_style="normal", title_standoff=1, label_standoff=2,
-            major_label_text_font_size="10px", major_tick_line_color=None,
-            ticker=self.ticks, background_fill_alpha=0.0))
+        self.figure.add_layout(scale_bar(self.mapper, "MPa", self.ticks))
         self.hover(drawn, [("y", "@y{0.00} mm"), ("half-length", "@top{0.00} mm"),
                            ("pressure", "@p0{0} MPa")])
         self.figure.line("y", "x", source=self.source("ellipse", "y x"), **HERTZ.line)
@@ -146,6 +141,16 @@ class Patch(Picture):
         self.set_range(self.x_range, shown.middle - shown.half_y, shown.middle + shown.half_y)
         self.set_range(self.y_range, -shown.half_x, shown.half_x)
         self.tell("y is stretched" if shown.is_stretched else "")
+
+
+def scale_bar(mapper: LinearColorMapper, title: str, ticks: Any) -> ColorBar:
+    """What colours stand for, in the upper right corner."""
+    return ColorBar(
+        color_mapper=mapper, orientation="horizontal", width=86, height=6, padding=2, margin=10,
+        location="top_right", title=title, title_text_font_size="10px",
+        title_text_font_style="normal", title_standoff=1, label_standoff=2,
+        major_label_text_font_size="10px", major_tick_line_color=None, ticker=ticks,
+        background_fill_alpha=0.7)
 
 
 class Window(NamedTuple):
@@ -293,7 +298,7 @@ class Creep(Picture):
                             line_color="white",
                             source=self.source("now", "creepage force marker colour"))
 
-    def show(self, outcome: Outcome) -> None:
+    def show(self, outcome: Outcome, curve: Optional[Curve]) -> None:
         control = CONTROL[outcome.axis]
         force = "Fx" if outcome.axis == "cksi" else "Fy"
         plot = self.figure
@@ -301,17 +306,13 @@ class Creep(Picture):
         self.out.set(plot.yaxis[0], axis_label=f"{force} on the rail over μ·N")
         value = getattr(outcome.case, outcome.axis) / control.scale
         self.out.set(self.here, location=value)
-        if outcome.curve is None:
-            self.clear("")
-            return
-        half = outcome.curve.creepage[-1] / control.scale
+        half = half_width(outcome.axis, getattr(outcome.case, outcome.axis)) / control.scale
         self.set_range(self.x_range, -half, half)
         self._points(outcome, value)
-        if self.key is outcome.curve:
+        if self.is_as_before(curve, "strips", "hertz") or curve is None:
             return
-        self.key = outcome.curve
-        for name, forces in forces_of(outcome.curve, force).items():
-            self.put(name, {"creepage": outcome.curve.creepage / control.scale, "force": forces})
+        for name, forces in (curve.fx if force == "Fx" else curve.fy).items():
+            self.put(name, {"creepage": curve.creepage / control.scale, "force": forces})
 
     def _points(self, outcome: Outcome, value: float) -> None:
         rows: Dict[str, List[Any]] = {"creepage": [], "force": [], "marker": [], "colour": []}
@@ -339,12 +340,11 @@ class Sweep(Picture):
         self.limit = shakedown_line(self)
         self.here = here(self)
 
-    def show(self, outcome: Outcome, survey: Optional[Survey]) -> None:
+    def show(self, outcome: Outcome, survey: Survey) -> None:
         self.out.set(self.limit, location=SHAKEDOWN * outcome.case.yield_shear)
         self.out.set(self.here, location=outcome.case.shift)
-        if survey is None or self.key is survey.pressure:
+        if self.is_as_before(survey.pressure, "strips", "hertz") or survey.pressure is None:
             return
-        self.key = survey.pressure
         for name, pressure in survey.pressure.items():
             self.put(name, {"y": SWEEP, "p": pressure})
         highest = max((float(np.nanmax(p)) for p in survey.pressure.values()
@@ -363,18 +363,17 @@ class Map(Picture):
         cells = self.figure.quad(left="left", right="right", bottom="bottom", top="top",
                                  source=self.source("cells", "left right bottom top part"),
                                  fill_color=colour, line_color=colour)
+        self.figure.add_layout(scale_bar(mapper, "force over μ·N",
+                                         FixedTicker(ticks=[0.0, 0.5, 1.0])))
         self.hover(cells, [("force over μ·N", "@part{0.000}")])
         self.figure.scatter("x", "y", source=self.source("now", "x y"), marker="circle", size=9,
                             fill_color="white", line_color="black", line_width=1.6)
 
-    def show(self, outcome: Outcome, survey: Optional[Survey]) -> None:
+    def show(self, outcome: Outcome, survey: Survey) -> None:
         scale = [CONTROL[name].scale for name in AXES]
         self.put("now", {"x": [outcome.case.cksi / scale[0]], "y": [outcome.case.ceta / scale[1]]})
-        if survey is None or self.key is survey.part:
+        if self.is_as_before(survey.part, "cells") or survey.part is None:
             return
-        self.key = survey.part
-        self.tell(f"force over μ·N: from {np.nanmin(survey.part):.2f}, light, to "
-                  f"{np.nanmax(survey.part):.2f}, dark" if np.isfinite(survey.part).any() else "")
         ends = [np.linspace(-half, half, MAP_POINTS) / one
                 for half, one in zip(survey.half, scale)]
         x, y = (values.ravel() for values in np.meshgrid(*ends))
@@ -390,10 +389,6 @@ def here(picture: Picture) -> Span:
     line = Span(location=0.0, dimension="height", line_color=GREY, line_dash="dotted")
     picture.figure.add_layout(line)
     return line
-
-
-def forces_of(curve: Curve, force: str) -> Dict[str, Any]:
-    return curve.fx if force == "Fx" else curve.fy
 
 
 class Times(Picture):
@@ -449,7 +444,7 @@ class Pictures:
         return [self.profiles, self.patch, self.pressure, *self.tractions.values(), self.creep,
                 self.sweep, self.map, self.times]
 
-    def show(self, outcome: Outcome, survey: Optional[Survey]) -> None:
+    def show(self, outcome: Outcome, survey: Survey) -> None:
         """Draw anew what shows something else than before."""
         normal = outcome.where, outcome.case.yield_shear, outcome.rows is not None
         for picture, key in ((self.profiles, outcome.where), (self.patch, normal),
@@ -459,6 +454,6 @@ class Pictures:
             if picture.key != key:
                 picture.show(outcome)
                 picture.key = key
-        self.creep.show(outcome)
+        self.creep.show(outcome, survey.curve)
         self.sweep.show(outcome, survey)
         self.map.show(outcome, survey)

@@ -61,7 +61,7 @@ TEMPLATE = """
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <style>
   html, body { margin: 0; background: white; font-family: sans-serif; font-size: 12px; }
-  html { --left: 258px; --right: 0; }
+  html { min-height: 100vh; --left: 258px; --right: 0; }
   html[data-scheme=dark] { filter: invert(0.9) hue-rotate(180deg); }
   body { padding: 4px 6px; }
   @media (max-width: 700px) { html { --left: 100%; --right: 100%; } }

@@ -7,7 +7,7 @@ import html
 import json
 import threading
 import time
-from typing import Any, Callable, Dict, List, Optional, Union
+from typing import Any, Callable, Dict, List, Optional, Tuple, Union
 
 from bokeh.document import Document
 from bokeh.embed import json_item
@@ -18,7 +18,7 @@ from bokeh.models import Button, ColumnDataSource, CustomJS, Div, RadioButtonGro
 from .._library import FaststripError
 from .case import CONTROL, CONTROLS, STANDARD, Case, CaseError, Shape, read_shape, smoothed
 from .case import to_case, to_slider
-from .controls import FIT, Controls
+from .controls import FIT, LEAST, Controls
 from .exporting import Program, Reference, case_files, numbers_csv, packed
 from .figures import Pictures, time_text
 from .look import BAD, SMALL
@@ -82,7 +82,7 @@ class Page:
             for kind in ("wheel", "rail")}
         self.outcome = Outcome(case)
         self.wheelset = WheelsetOutcome(case)
-        self.survey: Optional[Survey] = None
+        self.survey = Survey()
         self.functions: Union[None, str, Functions] = None
         self.begun = case
         self.reference: Optional[Reference] = None
@@ -114,7 +114,7 @@ class Page:
                           styles={"min-height": "18px"})
         self.tables = {view: Div(
             text='<div class="put" tabindex="0"></div>', name=f"{view}_numbers",
-            margin=(0, 0, 0, 4), styles={"max-width": "100%", "overflow-x": "auto"})
+            margin=(0, 0, 0, 4), styles={"max-width": "calc(100% - 8px)", "overflow-x": "auto"})
             for view in VIEWS}
         self.download = ColumnDataSource({"name": [], "content": [], "type": []}, name="download")
         self.download.js_on_change("data", CustomJS(code=DOWNLOAD))
@@ -163,7 +163,7 @@ class Page:
         return CustomJS(code=FIT, args={
             "figures": [one.figure for one in pictures], "notes": [one.note for one in pictures],
             "spans": [one.span for one in pictures], "left": LEFT, "width": WIDTH,
-            "height": HEIGHT, "beside": BESIDE_FRAME, "below": NOTE,
+            "height": HEIGHT, "beside": BESIDE_FRAME, "below": NOTE, "least": LEAST,
             "labels": {name: CONTROL[name].label for name in numbers},
             "sliders": {name: one.slider.id for name, one in numbers.items()},
             "inputs": {name: one.field.id for name, one in numbers.items()}})
@@ -218,6 +218,7 @@ class Page:
             self.wheelset = self.wheelsets.solve(case)
         else:
             self.outcome = self.solver.solve(case, list(AXES)[self.axis.active or 0])
+            self.survey = self.survey.still(case, self.outcome.axis)
             if self.reference is not None and self.outcome.motion != self.reference_of:
                 self.reference = None
         self.show()
@@ -270,30 +271,40 @@ class Page:
         if self.is_slow:
             return
         self.is_slow = True
-        view = self.view
-        case = self.wheelset.case if view == "wheelset" else self.outcome.case
+        of = self.shown()
 
         def work() -> None:
-            if view == "wheelset":
-                found: Any = self.slow_wheelsets.functions(case)
-            else:
-                self.slow.prepare(case)
-                found = self.slow.survey(case, case.creepage[:2])
-            self.document.add_next_tick_callback(lambda: self.take_slow(view, case, found))
+            view, case, axis = of
+            steps = ([self.slow_wheelsets.functions(case)] if view == "wheelset"
+                     else self.slow.survey(case, axis))
+            for found in steps:
+                self.document.add_next_tick_callback(
+                    lambda found=found: self.take_slow(of, found))
+                if self.shown() != of:
+                    break
+            self.document.add_next_tick_callback(lambda: self.end_slow(of))
 
         threading.Thread(target=work, daemon=True).start()
 
-    def take_slow(self, view: str, case: Case, found: Any) -> None:
-        """Show what was found; go on if the case is another one by now."""
-        self.is_slow = False
-        if view == "wheelset":
+    def shown(self) -> Tuple[str, Case, str]:
+        """What the page is of now."""
+        view = self.view
+        return (view, self.wheelset.case if view == "wheelset" else self.outcome.case,
+                self.outcome.axis)
+
+    def take_slow(self, of: Tuple[str, Case, str], found: Any) -> None:
+        """Show what was found, as far as it is of what is shown."""
+        if of[0] == "wheelset":
             self.functions = found
         else:
-            self.survey = found
-        if view == self.view:
+            self.survey = found.still(self.outcome.case, self.outcome.axis)
+        if of[0] == self.view:
             self.show()
-        now = self.wheelset.case if self.view == "wheelset" else self.outcome.case
-        if (view, case) != (self.view, now):
+
+    def end_slow(self, of: Tuple[str, Case, str]) -> None:
+        """Go on if something else is shown by now."""
+        self.is_slow = False
+        if self.shown() != of and self.rest is None:
             self.start_slow()
 
     def take_file(self, kind: str) -> None:

@@ -13,10 +13,11 @@ from .look import AXIS, FONT, GRID, NORM, SMALL
 from .wire import Direct
 
 Array = npt.NDArray[np.float64]
-WIDTH, HEIGHT = 272, 182  # of a frame, in pixels
-BORDERS = {"min_border_left": 52, "min_border_right": 8, "min_border_top": 4,
+WIDTH, HEIGHT = 270, 180  # of a frame, in pixels
+BORDERS = {"min_border_left": 58, "min_border_right": 8, "min_border_top": 4,
            "min_border_bottom": 6}
 BESIDE_FRAME = BORDERS["min_border_left"] + BORDERS["min_border_right"]
+LATER = "solved when the sliders rest"
 NOTE = 14  # px: the line of text below the upper edge
 
 
@@ -83,6 +84,18 @@ class Picture:
     def tell(self, text: str) -> None:
         """The line in the picture."""
         self.out.set(self.note, text=text)
+
+    def is_as_before(self, what: Any, *names: str) -> bool:
+        """Is what these sources show the same as before? If not, and if there is none, they are
+        emptied."""
+        if self.key is what:
+            return True
+        self.key = what
+        if what is None:
+            for name in names:
+                self.put(name, None)
+        self.tell("" if what is not None else LATER)
+        return False
 
     def set_range(self, side: Range1d, start: float, end: float) -> None:
         """Move a range."""

@@ -8,9 +8,10 @@ import errno
 import logging
 import signal
 import sys
+import warnings
 from typing import Any, List, Optional
 
-from .._library import FaststripError
+from .._library import FaststripError, ImplausibleWarning
 
 PORT = 5173
 HOST = "127.0.0.1"
@@ -75,6 +76,8 @@ def serve(fill: Any, port: int, with_browser: bool) -> int:
 
     from .look import TEMPLATE
 
+    # The page says which pressures yield.
+    warnings.simplefilter("ignore", ImplausibleWarning)
     logging.getLogger("bokeh").setLevel(logging.ERROR)
     logging.getLogger("tornado.access").setLevel(logging.CRITICAL)
 

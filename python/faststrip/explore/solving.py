@@ -7,7 +7,7 @@ import dataclasses
 import functools
 import math
 import time
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -29,7 +29,7 @@ ROLLING_SPEED = 2.0e4  # mm/s; only ratios of speeds count
 AXES = {"cksi": 0, "ceta": 1, "cphi": 2}
 # Displacements of a sweep, mm, and creepages of a map along each side.
 SWEEP = np.linspace(-10.0, 10.0, 41)
-MAP_POINTS = 21
+MAP_POINTS = 17
 JUMP = 4.0  # mm on the wheel from one displacement to the next: the contact is another one
 # Half the width of a creep curve: the first that holds the creepage.
 WIDTHS = {"cksi": (0.005, 0.01, 0.02), "ceta": (0.005, 0.01, 0.02), "cphi": (0.0004, 0.001)}
@@ -73,12 +73,31 @@ class Curve(NamedTuple):
 
 
 class Survey(NamedTuple):
-    """What takes longer than one contact: maximum pressures over the lateral displacement, and
-    forces over two creepages."""
+    """What takes longer than one contact; None where it is not known yet."""
 
-    pressure: Dict[str, Array]  #: MPa at each of SWEEP; nan before a jump and where there is none
-    half: Tuple[float, float]  #: of the creepages of the map
-    part: Array  #: force over mu N; rows of lateral, columns of longitudinal creepages
+    curve: Optional[Curve] = None
+    pressure: Optional[Dict[str, Array]] = None
+    """maximum pressures at each of SWEEP, MPa; nan before a jump and where nothing touches"""
+    half: Tuple[float, float] = (0.0, 0.0)  #: of the creepages of the map
+    part: Optional[Array] = None
+    """force over mu N; rows of lateral, columns of longitudinal creepages"""
+    keys: Tuple[Any, Any, Any] = (None, None, None)  #: what curve, sweep and map are of
+
+    def still(self, case: Case, axis: str) -> Survey:
+        """What of it is of this case, too."""
+        curve, sweep, part = (a == b for a, b in zip(self.keys, survey_keys(case, axis)))
+        return self._replace(curve=self.curve if curve else None,
+                             pressure=self.pressure if sweep else None,
+                             part=self.part if part else None)
+
+
+def survey_keys(case: Case, axis: str) -> Tuple[Any, Any, Any]:
+    """What curve, sweep and map depend on."""
+    sweep = *case.pair, case.is_vertical, case.yaw, case.load
+    here = *sweep, case.shift, case.mu
+    others = tuple(value for k, value in enumerate(case.creepage) if k != AXES[axis])
+    return ((*here, axis, half_width(axis, getattr(case, axis)), others), sweep,
+            (*here, case.cphi, half_width("cksi", case.cksi), half_width("ceta", case.ceta)))
 
 
 @dataclasses.dataclass
@@ -89,7 +108,6 @@ class Outcome:
     geometry: Optional[Geometry] = None
     error: str = ""
     answers: Dict[str, Answer] = dataclasses.field(default_factory=dict)
-    curve: Optional[Curve] = None
     axis: str = "cksi"
     where: Any = None  #: what gap and pressures are of
     motion: Any = None  #: what forces are of
@@ -154,25 +172,18 @@ class Solver(Kept):
         outcome.profiles = self._profiles(case)
         outcome.where = where = (*case.pair, case.is_vertical, case.shift, case.yaw, case.load)
         outcome.motion = motion = (*where, *case.creepage, case.mu)
-        geometry = self._once("gap", where if case.yaw else where[:-1],
-                              lambda: self._find_geometry(case))
+        geometry = self.geometry(case)
         if isinstance(geometry, str):
             outcome.error = geometry
         else:
-            if not case.yaw:
-                geometry = loaded(geometry, case)
             outcome.geometry = geometry
             for name in METHODS:
                 make = functools.partial(self._answer, name, geometry, case)
                 outcome.answers[name] = self._once(name, (motion, case.yield_shear), make)
-            half = half_width(axis, getattr(case, axis))
-            others = tuple(value for k, value in enumerate(case.creepage) if k != AXES[axis])
-            outcome.curve = self._once("curve", (*where, case.mu, axis, half, others),
-                                       lambda: self._find_curve(geometry, case, axis, half))
         outcome.times = dict(self.times)
         return outcome
 
-    def _find_geometry(self, case: Case) -> Any:
+    def _find_geometry(self, case: Case) -> Union[Geometry, str]:
         """The gap, or what is wrong in one line."""
         if case.yaw and not case.is_vertical:
             return "a yawed wheel must have a vertical load, got a normal one in the case file"
@@ -236,25 +247,28 @@ class Solver(Kept):
             fx[name], fy[name] = np.array(rows).T
         return Curve(values, fx, fy)
 
-    def survey(self, case: Case, creepages: Tuple[float, float]) -> Optional[Survey]:
-        """The sweep of a case and the map about its creepages; None where nothing touches."""
-        pressure = self._once("sweep", (*case.pair, case.is_vertical, case.yaw, case.load),
-                              lambda: self._sweep(case))
-        geometry = self._find_geometry(case)
-        if isinstance(geometry, str):
-            return None
-        geometry = geometry if case.yaw else loaded(geometry, case)
-        half = half_width("cksi", creepages[0]), half_width("ceta", creepages[1])
-        cksi, ceta = (np.linspace(-one, one, MAP_POINTS) for one in half)
+    def survey(self, case: Case, axis: str) -> Iterator[Survey]:
+        """Creep curve, sweep and map of a case, as soon as each is known."""
+        keys = curve, sweep, part = survey_keys(case, axis)
+        geometry = self.geometry(case)
+        found = Survey(keys=keys)
+        if not isinstance(geometry, str):
+            found = found._replace(curve=self._once("curve", curve, lambda: self._find_curve(
+                geometry, case, axis, half_width(axis, getattr(case, axis)))))
+            yield found
+        found = found._replace(pressure=self._once("sweep", sweep, lambda: self._sweep(case)))
+        yield found
+        if not isinstance(geometry, str):
+            half = half_width("cksi", case.cksi), half_width("ceta", case.ceta)
+            yield found._replace(half=half, part=self._once("map", part, lambda: map_of(
+                geometry, case, half)))
 
-        def find() -> Array:
-            found = solve_many(geometry.gap, load=geometry.load, mu=case.mu, estimate=False,
-                               creepage=(cksi, ceta[:, None], case.cphi), threads=1)
-            part = np.hypot(found.fx, found.fy) / (case.mu * geometry.load)
-            return np.where(found.status < FIRST_ERROR, part, math.nan)
-
-        key = (*case.pair, case.is_vertical, case.shift, case.yaw, case.load, case.mu, case.cphi)
-        return Survey(pressure, half, self._once("map", (*key, half), find))
+    def geometry(self, case: Case) -> Union[Geometry, str]:
+        """The gap with its normal force, or what is wrong in one line."""
+        key = *case.pair, case.is_vertical, case.shift, case.yaw
+        found = self._once("gap", (*key, case.load) if case.yaw else key,
+                           lambda: self._find_geometry(case))
+        return found if case.yaw or isinstance(found, str) else loaded(found, case)
 
     def _sweep(self, case: Case) -> Dict[str, Array]:
         found = [self._find_geometry(dataclasses.replace(case, shift=y)) for y in SWEEP.tolist()]
@@ -280,6 +294,15 @@ class Solver(Kept):
                                pitch_rate=-ROLLING_SPEED / RADIUS)
         contact = max(found.contacts, key=lambda contact: contact.load)
         return contact.cksi, contact.ceta, contact.cphi
+
+
+def map_of(geometry: Geometry, case: Case, half: Tuple[float, float]) -> Array:
+    """Forces over mu N over both creepages; nan where there are none."""
+    cksi, ceta = (np.linspace(-one, one, MAP_POINTS) for one in half)
+    found = solve_many(geometry.gap, load=geometry.load, mu=case.mu, estimate=False,
+                       creepage=(cksi, ceta[:, None], case.cphi), threads=1)
+    part = np.hypot(found.fx, found.fy) / (case.mu * geometry.load)
+    return np.where(found.status < FIRST_ERROR, part, math.nan)
 
 
 def straight(case: Case) -> Geometry:

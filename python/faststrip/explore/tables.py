@@ -113,7 +113,7 @@ def wheelset_status_of(outcome: WheelsetOutcome) -> Tuple[str, str]:
         return outcome.error, BAD
     parts, colour = [], TEXT
     for contact in outcome.result.contacts:
-        where = f"{contact.side} wheel, {contact.contact_angle * 180.0 / math.pi:.1f}°"
+        where = f"{contact.side} wheel, {digits(math.degrees(contact.contact_angle), '.1f')}°"
         if contact.word != "ok":
             parts.append(f"{where}: {WORDS.get(contact.word, contact.word)} ({contact.word})")
             colour = BAD

@@ -20,6 +20,7 @@ from .wire import Direct
 CUT = 650.0  # mm of the track that are left out on either side of its centre
 REACH, UP = 180.0, -42.0  # mm: to the sides, and up
 MIDDLE = 14.0  # mm: from the centre to the lines where the picture is cut
+WORDS_AT, WORDS_DOWN = 48.0, 32.0  # mm: of the forces, below the flanges
 LONGEST = 45.0  # mm: the longest force
 FORCES = (2e4, 5e4, 1e5, 2e5, 3e5, 5e5, 1e6, 2e6)  # N, of that length
 LOOK = {"right": RIGHT, "left": LEFT}
@@ -36,7 +37,7 @@ class Track(Picture):
         plot = self.figure
         plot.xaxis[0].ticker = FixedTicker(ticks=[-150, -100, -50, 50, 100, 150])
         plot.xaxis[0].formatter = CustomJSTickFormatter(
-            code=f"return tick < 0 ? tick - {CUT:g} : tick + {CUT:g}")
+            code=f"return String(tick + Math.sign(tick) * {CUT:g}).replace('-', '\u2212')")
         for end in (-MIDDLE, MIDDLE):
             plot.add_layout(Span(location=end, dimension="height", line_color=GREY,
                                  line_dash="dashed"))
@@ -52,7 +53,7 @@ class Track(Picture):
         plot.scatter("x1", "y1", angle="angle", source=forces, marker="triangle", size=9,
                      fill_color=RIGHT.colour, line_color=RIGHT.colour)
         plot.text("y", "z", text="words", source=self.source("words", "y z words"),
-                  text_align="center", text_font_size=SMALL)
+                  text_align="center", text_baseline="top", text_font_size=SMALL)
 
     def show(self, outcome: WheelsetOutcome) -> None:
         result = outcome.result
@@ -89,7 +90,7 @@ class Track(Picture):
                               math.nan]
         self.put("bearing", {"y": y_bearing, "z": z_bearing})
         self.put("forces", dict(zip(("x0", "y0", "x1", "y1", "angle"), zip(*rows))))
-        self.put("words", {"y": [-95.0, 95.0], "z": [UP + 22.0] * 2,
+        self.put("words", {"y": [-WORDS_AT, WORDS_AT], "z": [WORDS_DOWN] * 2,
                            "words": [words_of(outcome, side) for side in SIDES]})
         self.tell(f"arrows: force on the rail, {LONGEST:g} mm are {longest / 1e3:g} kN")
 
@@ -97,7 +98,8 @@ class Track(Picture):
 def words_of(outcome: WheelsetOutcome, side: str) -> str:
     """Forces of one wheel, beside it."""
     one = outcome.rests(side)
-    return f"{side}: Q {one.vertical / 1e3:.1f} kN, Y {one.lateral / 1e3:.1f} kN, Y/Q {one.ratio:.2f}"
+    return (f"Q {one.vertical / 1e3:.1f} kN\nY {one.lateral / 1e3:.1f} kN\n"
+            f"Y/Q {one.ratio:.2f}").replace("-", "\N{MINUS SIGN}")
 
 
 class Function(Picture):
