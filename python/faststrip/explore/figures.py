@@ -358,6 +358,7 @@ class Map(Picture):
     def __init__(self, out: Direct) -> None:
         super().__init__(out, "Creep-force map, strips + FASTSTRIP", CONTROL["cksi"].label,
                          CONTROL["ceta"].label)
+        self.now: Tuple[float, ...] = ()
         mapper = LinearColorMapper(palette=viridis(64)[::-1], low=0.0, high=1.0)
         colour = {"field": "part", "transform": mapper}
         cells = self.figure.quad(left="left", right="right", bottom="bottom", top="top",
@@ -371,7 +372,10 @@ class Map(Picture):
 
     def show(self, outcome: Outcome, survey: Survey) -> None:
         scale = [CONTROL[name].scale for name in AXES]
-        self.put("now", {"x": [outcome.case.cksi / scale[0]], "y": [outcome.case.ceta / scale[1]]})
+        now = outcome.case.cksi / scale[0], outcome.case.ceta / scale[1]
+        if self.now != now:
+            self.now = now
+            self.put("now", {"x": now[:1], "y": now[1:]})
         if self.is_as_before(survey.part, "cells") or survey.part is None:
             return
         ends = [np.linspace(-half, half, MAP_POINTS) / one

@@ -221,10 +221,11 @@ class Page:
             self.survey = self.survey.still(case, self.outcome.axis)
             if self.reference is not None and self.outcome.motion != self.reference_of:
                 self.reference = None
-        self.show()
+        self.show(rests=not self.is_ready)
         self.wait()
 
-    def show(self) -> None:
+    def show(self, rests: bool = True) -> None:
+        """Show what was solved; what it took only when the sliders rest."""
         start = time.thread_time()
         if self.view == "wheelset":
             self.wheelset_pictures.show(self.wheelset, self.functions)
@@ -239,7 +240,8 @@ class Page:
         self.pictures.show(outcome, self.survey)
         self.wire.write(self.tables["contact"], table_of(outcome))
         outcome.times["pictures"] = time.thread_time() - start
-        self.pictures.times.show({**outcome.times, **self.slow.times})
+        if rests:
+            self.pictures.times.show({**outcome.times, **self.slow.times})
         self.say()
 
     def say(self, trouble: str = "") -> None:
