@@ -958,9 +958,8 @@ FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 3
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
     build_step, test, lint, bare, mutants, hostile, fuzz, corrections, demo, strips, speed, scale,
-    lists, net, lookup, vehicle, explore, page, extremes, forces, scenes, stored, report, install, fmu,
-    package,
-    release, docs, embed, tables, compilers, clean)}
+    lists, net, lookup, vehicle, explore, page, extremes, forces, scenes, stored, report, install,
+    fmu, package, release, docs, embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"lint": 1, "bare": 1, "fuzz": 1, "clean": 1, **dict.fromkeys((
     "test", "install", "mutants", "hostile", "stored", "report", "speed", "scale", "net", "lookup",

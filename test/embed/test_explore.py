@@ -414,6 +414,7 @@ class Browser(InBrowser):
             self.element("axis", f".bk-btn:nth-child({button})").click()
             self.wait(lambda number=button - 1: self.model("axis", "active") == number, "axis")
         self.set("mu", 0.4)
+        self.wait(lambda: self.columns("map_cells")["part"], "what takes longer has come")
         axes, others = self.browser.execute_async_script("""
             const [done] = arguments
             const plots = [...Bokeh.documents[0]._all_models.values()]

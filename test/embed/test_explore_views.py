@@ -10,6 +10,7 @@ import types
 import unittest
 
 import numpy as np
+
 import page_in_browser
 from test_explore import NO_BROWSER, WHEEL, ExploreTest, InBrowser, rows_of
 
@@ -188,8 +189,8 @@ class Widths(InBrowser):
         from selenium.webdriver.common.keys import Keys
 
         field = self.element(f"{name}_number", "input")
-        field.send_keys(Keys.CONTROL, "a")
-        field.send_keys(text, Keys.ENTER)
+        self.browser.execute_script("arguments[0].select()", field)
+        field.send_keys(Keys.BACKSPACE, text, Keys.ENTER)
         return field
 
     def test_numbers_are_typed_with_a_comma_and_bad_ones_refused_beside(self):

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
 from bokeh.models import (
     ColorBar,
-    ColumnDataSource,
     CustomJSTickFormatter,
     FixedTicker,
-    HoverTool,
     Label,
     Legend,
     LinearColorMapper,
@@ -45,7 +43,8 @@ LATERAL = "y to the field side, mm"
 ROLLING = "x ahead, mm"
 TIMES = (("gap", "gap of the profiles", GREY), ("strips", STRIPS.label, STRIPS.colour),
          ("hertz", HERTZ.label, HERTZ.colour), ("curve", "two creep curves", GREY),
-         ("sweep", "sweep", GREY), ("map", "map", GREY), ("pictures", "pictures", GREY), ("norm", NORM.label, NORM.colour))
+         ("sweep", "sweep", GREY), ("map", "map", GREY), ("pictures", "pictures", GREY),
+         ("norm", NORM.label, NORM.colour))
 SHORTEST, LONGEST = 0.01, 3.0e4  # ms, of the time bar
 
 

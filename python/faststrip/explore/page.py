@@ -13,18 +13,40 @@ from bokeh.document import Document
 from bokeh.embed import json_item
 from bokeh.events import DocumentReady
 from bokeh.layouts import column, gridplot, row
-from bokeh.models import Button, ColumnDataSource, CustomJS, Div, RadioButtonGroup, Title
+from bokeh.models import (
+    Button,
+    ColumnDataSource,
+    CustomJS,
+    Div,
+    RadioButtonGroup,
+    Title,
+)
 
 from .._library import FaststripError
-from .case import CONTROL, CONTROLS, STANDARD, Case, CaseError, Shape, read_shape, smoothed
-from .case import to_case, to_slider
+from .case import (
+    CONTROL,
+    STANDARD,
+    Case,
+    CaseError,
+    Shape,
+    read_shape,
+    smoothed,
+    to_case,
+    to_slider,
+)
 from .controls import FIT, LEAST, Controls
 from .exporting import Program, Reference, case_files, numbers_csv, packed
 from .figures import Pictures, time_text
 from .look import BAD, SMALL
 from .picture import BESIDE_FRAME, HEIGHT, NOTE, WIDTH, Picture
 from .solving import AXES, Outcome, Solver, Survey
-from .tables import status_of, summary_of, table_of, wheelset_status_of, wheelset_table_of
+from .tables import (
+    status_of,
+    summary_of,
+    table_of,
+    wheelset_status_of,
+    wheelset_table_of,
+)
 from .wheelset import Functions, WheelsetOutcome, WheelsetSolver
 from .wheelset_figures import WheelsetPictures
 from .wire import Direct, sender
@@ -147,10 +169,12 @@ class Page:
             Div(text=f'<div style="font-size:11px;color:#444;line-height:14px">{SIGNS}</div>',
                 sizing_mode="stretch_width", name="signs", margin=(8, 4, 0, 6)),
             name="controls", styles={"flex": "0 0 var(--left)", "min-width": "0"})
-        self.grids = {view: row(*(one.figure for one in pictures.all()), self.tables[view],
+        all_pictures: Dict[str, List[Picture]] = {
+            "contact": self.pictures.all(), "wheelset": self.wheelset_pictures.all()}
+        self.grids = {view: row(*(one.figure for one in pictures), self.tables[view],
                                 name=f"{view}_view",
                                 styles={"flex-wrap": "wrap", "align-items": "flex-start"})
-                      for view, pictures in zip(VIEWS, (self.pictures, self.wheelset_pictures))}
+                      for view, pictures in all_pictures.items()}
         shown = column(self.status, *self.grids.values(), self._hidden(),
                        styles={"flex": "1 1 var(--right)", "min-width": "0"}, name="shown")
         return row(controls, shown, name="page",

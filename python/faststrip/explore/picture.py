@@ -35,7 +35,8 @@ class Picture:
         self.y_range = options.pop("y_range", None) or Range1d(-7.0, 7.0)
         self.figure = figure(
             title=title, x_axis_label=x_label, y_axis_label=y_label,
-            frame_width=span * WIDTH + (span - 1) * BESIDE_FRAME, frame_height=HEIGHT, x_range=self.x_range, y_range=self.y_range,
+            frame_width=span * WIDTH + (span - 1) * BESIDE_FRAME, frame_height=HEIGHT,
+            x_range=self.x_range, y_range=self.y_range,
             output_backend=out.backend, toolbar_location=None, tools="",
             styles={"flex": "0 0 auto"}, **{**BORDERS, **options})
         self._style()

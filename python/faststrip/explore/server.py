@@ -25,8 +25,8 @@ def parser() -> argparse.ArgumentParser:
     made = argparse.ArgumentParser(
         prog="faststrip-explore",
         description="Serve the interactive explorer: one wheel on one rail, or a wheelset on its "
-                    "track, solved while sliders move. It is served on 127.0.0.1 only and loads nothing from the "
-                    "network. Ctrl-C ends it.",
+                    "track, solved while sliders move. It is served on 127.0.0.1 only and "
+                    "loads nothing from the network. Ctrl-C ends it.",
         epilog="Units mm, N, rad. Forces act on the rail. More: docs/usage.md.")
     made.add_argument("files", metavar="FILE", nargs="*", help="a case file, CASE.nml, or the "
                       "profiles of a wheel and of a rail, in this order")

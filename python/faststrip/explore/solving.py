@@ -272,13 +272,15 @@ class Solver(Kept):
 
     def _sweep(self, case: Case) -> Dict[str, Array]:
         found = [self._find_geometry(dataclasses.replace(case, shift=y)) for y in SWEEP.tolist()]
-        there = [k for k, one in enumerate(found) if not isinstance(one, str)]
+        bodies = {k: one if case.yaw else loaded(one, case) for k, one in enumerate(found)
+                  if not isinstance(one, str)}
+        there = list(bodies)
         pressure = {name: np.full(len(SWEEP), math.nan) for name in METHODS}
         if there:
-            bodies = [found[k] if case.yaw else loaded(found[k], case) for k in there]
             for name, (normal, _) in METHODS.items():
-                many = solve_many([one.gap for one in bodies], load=[one.load for one in bodies],
-                                  normal=normal, tangential="none", estimate=False, threads=1)
+                many = solve_many([one.gap for one in bodies.values()],
+                                  load=[one.load for one in bodies.values()], normal=normal,
+                                  tangential="none", estimate=False, threads=1)
                 pressure[name][there] = np.where(many.status < FIRST_ERROR, many.pmax, math.nan)
         places = np.array([math.nan if isinstance(one, str) else one.place.y_wheel
                            for one in found])

@@ -177,8 +177,8 @@ def table_of(outcome: Outcome) -> str:
     others = [more_rows(outcome, answer) for answer in answers]
     for k, (title, unit, form) in enumerate(MORE):
         lines.append(line_of(title, unit, "".join(
-            f'<td style="{CELL}">' + ("–" if row[k] is None else digits(row[k], form))
-            + "</td><td></td>" for row in others)))
+            f'<td style="{CELL}">' + ("–" if value is None else digits(value, form))
+            + "</td><td></td>" for value in (row[k] for row in others))))
     return table(lines)
 
 
@@ -194,7 +194,8 @@ def wheelset_table_of(outcome: WheelsetOutcome) -> str:
     rests = [outcome.rests(side) for side in SIDES]
     for title, unit, attribute, scale, form in WHEEL_ROWS:
         lines.append(line_of(title, unit, "".join(
-            f'<td colspan="{len(of)}" style="{CELL}">{digits(getattr(one, attribute) / scale, form)}</td>'
+            f'<td colspan="{len(of)}" style="{CELL}">'
+            f"{digits(getattr(one, attribute) / scale, form)}</td>"
             for one, of in zip(rests, sides))))
     wear = dict(zip(map(id, result.contacts), outcome.wear))
     for title, unit, attribute, scale, form in CONTACT_ROWS:

@@ -109,7 +109,7 @@ class Function(Picture):
                  names: Dict[str, str], name: str, legend: str = "") -> None:
         super().__init__(out, title, x_label, y_label, name=name,
                          x_range=Range1d(low, DISPLACEMENTS[-1]))
-        lines = []
+        lines: List[Any] = []
         for key, label in names.items():
             look = LOOK.get(key, RIGHT if not lines else LEFT)
             lines.append((label, [self.figure.line("x", "y", source=self.source(key, "x y"),
