@@ -70,7 +70,7 @@ def start_browser(downloads=None):
 
 
 def main():
-    from PIL import Image
+    from PIL import Image, ImageOps
 
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -95,7 +95,9 @@ def main():
     finally:
         browser.quit()
         served.end()
-    picture.quantize(COLOURS).save(options.output, optimize=True)
+    _, _, right, bottom = ImageOps.invert(picture).getbbox()
+    picture = picture.crop((0, 0, right + 8, bottom + 8)).quantize(COLOURS)
+    picture.save(options.output, optimize=True)
     return 0
 
 
