@@ -189,8 +189,7 @@ class Widths(InBrowser):
         from selenium.webdriver.common.keys import Keys
 
         field = self.element(f"{name}_number", "input")
-        self.browser.execute_script("arguments[0].select()", field)
-        field.send_keys(Keys.BACKSPACE, text, Keys.ENTER)
+        field.send_keys(Keys.BACKSPACE * len(field.get_attribute("value")), text, Keys.ENTER)
         return field
 
     def test_numbers_are_typed_with_a_comma_and_bad_ones_refused_beside(self):
