@@ -350,6 +350,14 @@ class InBrowser(ExploreTest):
             wire.properties.text.change.connect(follow)
             slider.value = value""", name, value)
 
+    def let_rest(self):
+        """Wait until what takes longer has come."""
+        self.browser.execute_async_script("""
+            const [done] = arguments
+            const {text} = Bokeh.documents[0].get_model_by_name('wire').properties
+            let timer = setTimeout(done, 2000)
+            text.change.connect(() => { clearTimeout(timer); timer = setTimeout(done, 2000) })""")
+
     def severe(self):
         """What went wrong in the browser."""
         return [line for line in self.browser.get_log("browser") if line["level"] == "SEVERE"
@@ -414,7 +422,7 @@ class Browser(InBrowser):
             self.element("axis", f".bk-btn:nth-child({button})").click()
             self.wait(lambda number=button - 1: self.model("axis", "active") == number, "axis")
         self.set("mu", 0.4)
-        self.wait(lambda: self.columns("map_cells")["part"], "what takes longer has come")
+        self.let_rest()
         axes, others = self.browser.execute_async_script("""
             const [done] = arguments
             const plots = [...Bokeh.documents[0]._all_models.values()]

@@ -447,8 +447,9 @@ class Pictures:
         return [self.profiles, self.patch, self.pressure, *self.tractions.values(), self.creep,
                 self.sweep, self.map, self.times]
 
-    def show(self, outcome: Outcome, survey: Survey) -> None:
-        """Draw anew what shows something else than before."""
+    def show(self, outcome: Outcome, survey: Survey, rests: bool = True) -> None:
+        """Draw anew what shows something else than before; what is not known yet when the sliders
+        rest."""
         normal = outcome.where, outcome.case.yield_shear, outcome.rows is not None
         for picture, key in ((self.profiles, outcome.where), (self.patch, normal),
                              (self.pressure, normal),
@@ -457,6 +458,9 @@ class Pictures:
             if picture.key != key:
                 picture.show(outcome)
                 picture.key = key
-        self.creep.show(outcome, survey.curve)
-        self.sweep.show(outcome, survey)
-        self.map.show(outcome, survey)
+        if rests or survey.curve is not None:
+            self.creep.show(outcome, survey.curve)
+        if rests:
+            self.sweep.show(outcome, survey)
+        if rests or survey.part is not None:
+            self.map.show(outcome, survey)

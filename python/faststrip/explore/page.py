@@ -242,14 +242,13 @@ class Page:
             self.wheelset = self.wheelsets.solve(case)
         else:
             self.outcome = self.solver.solve(case, list(AXES)[self.axis.active or 0])
-            self.survey = self.survey.still(case, self.outcome.axis)
             if self.reference is not None and self.outcome.motion != self.reference_of:
                 self.reference = None
         self.show(rests=not self.is_ready)
         self.wait()
 
     def show(self, rests: bool = True) -> None:
-        """Show what was solved; what it took only when the sliders rest."""
+        """Show what was solved; only when the sliders rest what it took and what takes longer."""
         start = time.thread_time()
         if self.view == "wheelset":
             self.wheelset_pictures.show(self.wheelset, self.functions)
@@ -261,7 +260,7 @@ class Page:
             outcome.answers["norm"] = self.reference.answer
             outcome.rows = self.reference
             outcome.times["norm"] = self.reference.seconds
-        self.pictures.show(outcome, self.survey)
+        self.pictures.show(outcome, self.survey.still(outcome.case, outcome.axis), rests)
         self.wire.write(self.tables["contact"], table_of(outcome))
         outcome.times["pictures"] = time.thread_time() - start
         if rests:
@@ -294,6 +293,7 @@ class Page:
     def start_slow(self) -> None:
         """Solve sweep and map, or contact functions, of what is shown."""
         self.rest = None
+        self.show()
         if self.is_slow:
             return
         self.is_slow = True
@@ -323,7 +323,7 @@ class Page:
         if of[0] == "wheelset":
             self.functions = found
         else:
-            self.survey = found.still(self.outcome.case, self.outcome.axis)
+            self.survey = found
         if of[0] == self.view:
             self.show()
 
@@ -390,7 +390,7 @@ class Page:
             case, shown, columns = self.wheelset.case, wheelset.all(), 1
         else:
             pictures = Pictures(Direct())
-            pictures.show(self.outcome, self.survey)
+            pictures.show(self.outcome, self.survey.still(self.outcome.case, self.outcome.axis))
             pictures.times.show(self.outcome.times)
             case, shown, columns = self.outcome.case, pictures.all(), 3
         figures = [one.figure for one in shown]
