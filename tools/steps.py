@@ -35,6 +35,9 @@
                 build, install below build/, then run a bogie through a curve and up to its limit
                 cycle with strips, Hertz and a table; pictures and figures in out/vehicle/; some
                 ten minutes (--quick: half a minute)
+  explore [FILE...]
+                build, install below build/, then serve the interactive explorer: of a case file,
+                or of the profiles of a wheel and a rail (--help: its options)
   page [-o FILE] [--moves N]
                 build, install below build/, then time faststrip-explore in a browser: from the
                 move of a slider to the picture; table in out/; some minutes
@@ -788,6 +791,17 @@ def page(*words):
     do(sys.executable, "tools/measure/bench_page.py", "--prefix", "build/embed", *from_start(words))
 
 
+def explore(*words):
+    """The interactive explorer of this checkout, where ./run was called."""
+    python_packages("explore", "Bokeh")
+    if not {"-h", "--help"} & set(words):
+        install_below(ROOT / "build" / "embed")
+    os.environ.update(FASTSTRIP_PREFIX=str(ROOT / "build" / "embed"),
+                      PYTHONPATH=str(ROOT / "python"))
+    os.chdir(START)
+    os.execv(sys.executable, [sys.executable, "-m", "faststrip.explore", *words])
+
+
 def from_start(words):
     """Words with the file of the output as seen from where ./run was called."""
     return [os.path.join(START, word) if before in ("-o", "--output") else word
@@ -947,13 +961,12 @@ FORCE_ELEMENTS = ((15, 15), (5, 15), (9, 15), (9, 9), (15, 30), (23, 23), (31, 3
                   (15, 7))
 STEPS = {step.__name__.removesuffix("_step").replace("_", "-"): step for step in (
     build_step, test, lint, bare, mutants, hostile, fuzz, corrections, demo, strips, speed, scale,
-    lists, net, lookup, vehicle, page, extremes, forces, scenes, stored, report, install, fmu,
-    package,
-    release, docs, embed, tables, compilers, clean)}
+    lists, net, lookup, vehicle, explore, page, extremes, forces, scenes, stored, report, install,
+    fmu, package, release, docs, embed, tables, compilers, clean)}
 # Commands that take words, and how many at most.
 WORDS = {"lint": 1, "bare": 1, "fuzz": 1, "clean": 1, **dict.fromkeys((
     "test", "install", "mutants", "hostile", "stored", "report", "speed", "scale", "net", "lookup",
-    "vehicle", "page", "release", "fmu"))}
+    "vehicle", "page", "release", "fmu")), "explore": None}
 
 
 def main(command="", *words):

@@ -1,14 +1,28 @@
+#!/usr/bin/env python3
 """The page of faststrip-explore served, and a browser without a screen that shows it: for its test
-and for tools/measure/bench_page.py."""
+and for tools/measure/bench_page.py. By itself it takes the picture of the README:
 
+    page_in_browser.py --prefix FOLDER [-o FILE.png]
+
+FOLDER is where faststrip is installed; FILE.png is plots/explorer.png unless said. It takes Pillow.
+"""
+
+import argparse
+import io
+import os
+import pathlib
 import re
 import shutil
 import signal
 import subprocess
 import sys
+import time
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 BROWSER, DRIVER = (shutil.which(name) for name in ("chromium", "chromedriver"))
 WIDTH, HEIGHT = 1280, 720
+# What the picture shows: a wheelset in a curve, of which all has come and been drawn after that, s.
+SHOWN, COLOURS, SETTLED = {"shift": 5.5, "yaw": 3.0, "curvature": 2.0, "load": 90.0}, 64, 6
 # Long enough for a machine ten times slower, s.
 PATIENCE = 120
 
@@ -53,3 +67,39 @@ def start_browser(downloads=None):
         "width": WIDTH, "height": HEIGHT, "deviceScaleFactor": 1, "mobile": False})
     browser.set_script_timeout(PATIENCE)
     return browser
+
+
+def main():
+    from PIL import Image, ImageOps
+
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--prefix", required=True, type=lambda text: pathlib.Path(text).resolve())
+    parser.add_argument("-o", dest="output", default=str(ROOT / "plots" / "explorer.png"))
+    options = parser.parse_args()
+    served = Served({**os.environ, "FASTSTRIP_PREFIX": str(options.prefix),
+                     "PYTHONPATH": str(ROOT / "python")}, ROOT)
+    browser = start_browser()
+    try:
+        browser.get(served.address)
+        browser.execute_async_script(
+            "const [done] = arguments; const look = () => window.Bokeh?.is_spared"
+            " ? done() : setTimeout(look, 50); look()")
+        browser.execute_script("""
+            const of = (name) => Bokeh.documents[0].get_model_by_name(name)
+            of('view').active = 1
+            for (const [name, value] of Object.entries(arguments[0])) of(name).value = value
+            """, SHOWN)
+        time.sleep(SETTLED)
+        picture = Image.open(io.BytesIO(browser.get_screenshot_as_png())).convert("RGB")
+    finally:
+        browser.quit()
+        served.end()
+    _, _, right, bottom = ImageOps.invert(picture).getbbox()
+    picture = picture.crop((0, 0, right + 8, bottom + 8)).quantize(COLOURS)
+    picture.save(options.output, optimize=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -78,7 +78,8 @@ CONTACTS = {
 ESTIMATES = {"residuals": "strips", "richardson": "strips, from two numbers of them",
              "norm": "kalker_normal"}
 SLIDERS = {"shift": "lateral displacement", "yaw": "yaw", "load": "wheel load",
-           "cksi": "longitudinal creepage", "cphi": "spin", "mu": "friction"}
+           "cksi": "longitudinal creepage", "cphi": "spin", "mu": "friction",
+           "wheelset": "lateral displacement, wheelset"}
 INFLUENCE = {
     "published": "published polynomial, degree 6", "refit 6": "fresh fit, degree 6",
     "refit 9": "fresh fit, degree 9", "refit 12": "fresh fit, degree 12",

@@ -26,11 +26,11 @@ contains
     end subroutine run_explore
 
     subroutine print_help()
-        call say('usage: faststrip explore [options]')
+        call say('usage: faststrip explore [CASE.nml | WHEEL RAIL] [options]')
         call say('')
-        call say('Serve the interactive explorer, on this machine only: one wheel on one rail,')
-        call say('solved while its sliders move. Runs ' // page // ' of the Python package, with')
-        call say('the same options: ' // page // ' --help')
+        call say('Serve the interactive explorer, on this machine only: one wheel on one rail, or')
+        call say('a wheelset on its track, solved while sliders move. Runs ' // page // ' of')
+        call say('the Python package, with the same options: ' // page // ' --help')
         call say('')
         call say('  --help                 this text')
     end subroutine print_help

@@ -1,8 +1,9 @@
-"""What is on the page: one right wheel on one right rail, as numbers with units."""
+"""What is on the page, as numbers with units: a right wheel on its rail, and its wheelset."""
 
 from __future__ import annotations
 
 import dataclasses
+import functools
 import pathlib
 import tempfile
 from typing import NamedTuple, Optional, Tuple, Union
@@ -37,7 +38,7 @@ STANDARD = {kind: {name: Shape(name, name) for name in names} for kind, names in
 
 @dataclasses.dataclass(frozen=True)
 class Case:
-    """One contact; lengths in mm, N, rad."""
+    """One contact and its wheelset; mm, N, MPa, rad."""
 
     wheel: Shape = STANDARD["wheel"]["s1002"]
     rail: Shape = STANDARD["rail"]["uic60"]
@@ -48,6 +49,10 @@ class Case:
     ceta: float = 5.0e-4
     cphi: float = 5.0e-5
     mu: float = 0.3
+    transfer: float = 0.0
+    """what the right wheel bears more than the mean of both, and the left one less, as a part"""
+    curvature: float = 0.0
+    yield_shear: float = 300.0
     is_vertical: bool = True
     """is the load the vertical one, and not the normal force?"""
     given_inclination: Optional[float] = None
@@ -65,6 +70,11 @@ class Case:
         return 0.0 if self.rail.is_file else STANDARD_INCLINATION
 
     @property
+    def pair(self) -> Tuple[Shape, Shape, float]:
+        """What contact geometry is of: wheel, rail and its inclination."""
+        return self.wheel, self.rail, self.inclination
+
+    @property
     def creepage(self) -> Tuple[float, float, float]:
         return self.cksi, self.ceta, self.cphi
 
@@ -80,16 +90,29 @@ class Control(NamedTuple):
     low: float
     high: float
     step: float
+    view: str = ""
+    """which view has it; empty: both"""
+
+    @property
+    def label(self) -> str:
+        """Title with the unit."""
+        return self.title + ("" if self.unit == "-" else f", {self.unit}")
 
 
 CONTROLS = (
     Control("shift", "lateral displacement y", "mm", 1.0, -10.0, 10.0, 0.1),
     Control("yaw", "yaw angle", "mrad", 1e-3, -20.0, 20.0, 0.5),
     Control("load", "wheel load Q", "kN", 1e3, 1.0, 250.0, 1.0),
-    Control("cksi", "longitudinal creepage cksi", "%", 1e-2, -2.0, 2.0, 0.01),
-    Control("ceta", "lateral creepage ceta", "%", 1e-2, -2.0, 2.0, 0.01),
-    Control("cphi", "spin cphi", "rad/m", 1e-3, -1.0, 1.0, 0.005),
+    Control("transfer", "load transfer to the right", "%", 1e-2, -90.0, 90.0, 1.0,
+            "wheelset"),
+    Control("curvature", "track curvature", "1/km", 1e-6, -10.0, 10.0, 0.1,
+            "wheelset"),
+    Control("cksi", "longitudinal creepage cksi", "%", 1e-2, -2.0, 2.0, 0.01, "contact"),
+    Control("ceta", "lateral creepage ceta", "%", 1e-2, -2.0, 2.0, 0.01, "contact"),
+    Control("cphi", "spin cphi", "rad/m", 1e-3, -1.0, 1.0, 0.005, "contact"),
     Control("mu", "coefficient of friction", "-", 1.0, 0.01, 0.8, 0.01),
+    Control("yield_shear", "yield stress in shear k", "MPa", 1.0, 50.0, 800.0, 5.0),
+    Control("smoothing", "smoothing of files", "mm", 1.0, 0.0, 30.0, 0.5),
 )
 CONTROL = {control.name: control for control in CONTROLS}
 DIGITS = 12
@@ -108,7 +131,7 @@ def to_slider(control: Control, value: float) -> float:
 def checked(case: Case) -> Case:
     """A case whose numbers the sliders can show; else CaseError."""
     for control in CONTROLS:
-        value = to_slider(control, getattr(case, control.name))
+        value = to_slider(control, getattr(case, control.name, 0.0))
         if not control.low <= value <= control.high:
             unit = "" if control.unit == "-" else f" {control.unit}"
             raise CaseError(f"{control.title} must be from {control.low:g} to {control.high:g}"
@@ -116,8 +139,8 @@ def checked(case: Case) -> Case:
     return case
 
 
-def read_shape(kind: str, name: str, content: bytes) -> Shape:
-    """A profile from the content of a file, through the library's readers."""
+def read_shape(kind: str, name: str, content: bytes, **options: float) -> Shape:
+    """A profile from the content of a file, through the library's readers, with its options."""
     label = pathlib.PurePath(name.replace("\\", "/")).name
     if not label or label in (".", ".."):
         raise CaseError(f"the file must have a name, got {name!r}")
@@ -128,10 +151,23 @@ def read_shape(kind: str, name: str, content: bytes) -> Shape:
         except (OSError, ValueError) as problem:
             raise CaseError(f"cannot keep a file of this name: {label!r} ({problem})") from None
         try:
-            profile = Profile.read(path, kind=kind)
+            profile = Profile.read(path, kind=kind, **options)  # type: ignore[arg-type]
         except FaststripError as problem:
             raise CaseError(problem.message.replace(f"{folder}/", "")) from None
     return Shape(label, dataclasses.replace(profile, path=label), content)
+
+
+@functools.lru_cache(maxsize=32)
+def smoothed(kind: str, shape: Shape, wavelength: float) -> Shape:
+    """A profile of a file without waves shorter than this, mm; as it is for 0 and of a name."""
+    if not wavelength or not shape.is_file:
+        return shape
+    made = read_shape(kind, shape.label, shape.content, smooth_wavelength=wavelength)
+    assert isinstance(made.profile, Profile)
+    points = "".join(f"{y!r} {z!r}\n" for y, z in zip(made.profile.y.tolist(),
+                                                     made.profile.z.tolist()))
+    return Shape(f"{pathlib.PurePath(shape.label).stem}_smooth{wavelength:g}.txt", made.profile,
+                 points.encode("ascii"))
 
 
 def find_shape(kind: str, name: str) -> Shape:

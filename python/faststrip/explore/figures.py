@@ -1,19 +1,16 @@
-"""The pictures of the page. Each has its sources of data and is drawn anew only when what it shows
-has changed."""
+"""The pictures of one contact. Each is drawn anew only when what it shows has changed."""
 
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
 from bokeh.models import (
     ColorBar,
-    ColumnDataSource,
     CustomJSTickFormatter,
     FixedTicker,
-    HoverTool,
     Label,
     Legend,
     LinearColorMapper,
@@ -21,19 +18,16 @@ from bokeh.models import (
     Span,
 )
 from bokeh.palettes import viridis
-from bokeh.plotting import figure
 
 from .._style import GREY, PALE
 from . import fields
 from .case import CONTROL
-from .look import AXIS, BODY, FONT, GRID, HERTZ, LOOKS, NORM, SLIP, SMALL, STRIPS
-from .solving import Curve, Outcome
+from .look import AXIS, BODY, HERTZ, LOOKS, NORM, SLIP, SMALL, STRIPS
+from .picture import HEIGHT, WIDTH, Picture, first_above
+from .solving import AXES, MAP_POINTS, SWEEP, Curve, Outcome, Survey, half_width
 from .wire import Direct
 
 Array = npt.NDArray[np.float64]
-WIDTH, HEIGHT = 272, 182  # of a frame, in pixels
-BORDERS = {"min_border_left": 52, "min_border_right": 8, "min_border_top": 4,
-           "min_border_bottom": 6}
 # Around a patch, to its sides, and above, where words stand; part of the width below which it is
 # narrow, and how much of the width is left to it then.
 BESIDE, ABOVE, NARROW, STRETCHED = 1.08, 1.3, 0.3, 2.0
@@ -42,101 +36,28 @@ LENGTHS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 20.0, 
 PRESSURES = (200.0, 500.0, 1000.0, 1500.0, 2000.0, 3000.0, 4000.0, 6000.0, 10000.0, 20000.0)
 ARROW = 22.0  # pixels: the longest arrow
 APART = 7.0  # pixels: marks of NORM
+# Of a line contact without friction, over the yield stress in shear: Johnson, Contact Mechanics
+# (1985), section 9.2.
+SHAKEDOWN = 4.0
 LATERAL = "y to the field side, mm"
 ROLLING = "x ahead, mm"
 TIMES = (("gap", "gap of the profiles", GREY), ("strips", STRIPS.label, STRIPS.colour),
          ("hertz", HERTZ.label, HERTZ.colour), ("curve", "two creep curves", GREY),
-         ("pictures", "pictures", GREY), ("norm", NORM.label, NORM.colour))
+         ("sweep", "sweep", GREY), ("map", "map", GREY), ("pictures", "pictures", GREY),
+         ("norm", NORM.label, NORM.colour))
 SHORTEST, LONGEST = 0.01, 3.0e4  # ms, of the time bar
 
 
-def first_above(values: Sequence[float], value: float) -> float:
-    """The first of rising numbers that is not below a value; else the value."""
-    return next((one for one in values if one >= value), value)
-
-
-class Picture:
-    """A figure with its sources; ``key`` is what it was last drawn of."""
-
-    def __init__(self, out: Direct, title: str, x_label: str, y_label: str, *,
-                 width: int = WIDTH, height: int = HEIGHT, **options: Any) -> None:
-        self.x_range = options.pop("x_range", None) or Range1d(-10.0, 10.0)
-        self.y_range = options.pop("y_range", None) or Range1d(-7.0, 7.0)
-        self.figure = figure(
-            title=title, x_axis_label=x_label, y_axis_label=y_label, frame_width=width,
-            frame_height=height, x_range=self.x_range, y_range=self.y_range,
-            output_backend=out.backend, toolbar_location=None, tools="", **{**BORDERS, **options})
-        self._style()
-        self.name = options.get("name", type(self).__name__.lower())
-        self.out = out
-        # What changes from case to case: a title would be laid out anew each time.
-        self.note = Label(x=4, y=height - 14, x_units="screen", y_units="screen", text="",
-                          text_font_size=SMALL, text_color="black", background_fill_color="white",
-                          background_fill_alpha=0.7)
-        self.figure.add_layout(self.note)
-        self.sources: Dict[str, ColumnDataSource] = {}
-        self.key: Any = None
-
-    def _style(self) -> None:
-        plot = self.figure
-        plot.title.text_font_size = FONT
-        plot.title.text_color = "black"
-        plot.grid.grid_line_color = GRID
-        plot.outline_line_color = None
-        plot.axis.axis_label_text_font_size = SMALL
-        plot.axis.axis_label_text_font_style = "normal"
-        plot.axis.axis_label_standoff = 3
-        plot.axis.major_label_text_font_size = SMALL
-        plot.axis.axis_line_color = plot.axis.major_tick_line_color = AXIS
-        plot.axis.minor_tick_line_color = None
-        plot.axis.axis_label_text_color = plot.axis.major_label_text_color = "black"
-
-    def source(self, name: str, columns: str) -> ColumnDataSource:
-        """A source with empty columns."""
-        self.sources[name] = ColumnDataSource({column: [] for column in columns.split()},
-                                              name=f"{self.name}_{name}")
-        return self.sources[name]
-
-    def put(self, name: str, data: Optional[Dict[str, Any]]) -> None:
-        """New data of a source; none empties it."""
-        source = self.sources[name]
-        self.out.put(source, {column: [] for column in source.data} if data is None else data)
-
-    def clear(self, text: str) -> None:
-        """Nothing but a line."""
-        for name in self.sources:
-            self.put(name, None)
-        self.tell(text)
-
-    def tell(self, text: str) -> None:
-        """The line in the picture."""
-        self.out.set(self.note, text=text)
-
-    def set_range(self, side: Range1d, start: float, end: float) -> None:
-        """Move a range."""
-        self.out.set(side, start=start, end=end)
-
-    def draw_norm(self, column: str) -> None:
-        """A column over y as NORM is drawn."""
-        self.figure.scatter("y", column, source=self.source("norm", f"y {column}"),
-                            marker="circle", size=4, fill_color="white", line_color=NORM.colour,
-                            line_width=1.4)
-
-    def hover(self, renderer: Any, rows: List[Tuple[str, str]]) -> None:
-        self.figure.add_tools(HoverTool(renderers=[renderer], tooltips=rows))
-
-
 class Profiles(Picture):
-    """Both profiles where they touch."""
+    """Both profiles where they touch, with the flange."""
 
-    REACH = 44.0  # mm to both sides
+    LEFT, RIGHT, UP = -75.0, 60.0, -38.0  # mm
 
     def __init__(self, out: Direct) -> None:
-        reach = self.REACH
-        height = 2.0 * reach * HEIGHT / WIDTH
+        height = (self.RIGHT - self.LEFT) * HEIGHT / WIDTH
         super().__init__(out, "Profiles", LATERAL, "z down, mm",
-                         x_range=Range1d(-reach, reach),
-                         y_range=Range1d(0.55 * height, -0.45 * height))
+                         x_range=Range1d(self.LEFT, self.RIGHT),
+                         y_range=Range1d(self.UP + height, self.UP))
         for name, colour in (("rail", BODY), ("wheel", PALE)):
             self.figure.varea("y", "z", "far", source=self.source(name, "y z far"),
                               fill_color=colour)
@@ -145,7 +66,7 @@ class Profiles(Picture):
                          line_width=5.0)
         self.figure.scatter("y", "z", source=self.source("places", "y z"), size=9,
                             marker="inverted_triangle", fill_color="black", line_color="white")
-        for text, y, z in (("wheel", 32.0, -0.3 * height), ("rail", -3.0, 0.48 * height)):
+        for text, y, z in (("wheel", 38.0, -15.0), ("rail", -12.0, 40.0)):
             self.figure.add_layout(Label(x=y, y=z, text=text, text_font_size=SMALL,
                                          text_color=AXIS))
 
@@ -192,12 +113,7 @@ class Patch(Picture):
             source=self.source("strips", "left right bottom top p0 y"),
             fill_color={"field": "p0", "transform": self.mapper}, line_color="white",
             line_width=0.6)
-        self.figure.add_layout(ColorBar(
-            color_mapper=self.mapper, orientation="horizontal", width=86, height=6, padding=2,
-            location=(WIDTH - 112, HEIGHT - 34), title="MPa", title_text_font_size="10px",
-            title_text_font_style="normal", title_standoff=1, label_standoff=2,
-            major_label_text_font_size="10px", major_tick_line_color=None,
-            ticker=self.ticks, background_fill_alpha=0.0))
+        self.figure.add_layout(scale_bar(self.mapper, "MPa", self.ticks))
         self.hover(drawn, [("y", "@y{0.00} mm"), ("half-length", "@top{0.00} mm"),
                            ("pressure", "@p0{0} MPa")])
         self.figure.line("y", "x", source=self.source("ellipse", "y x"), **HERTZ.line)
@@ -224,6 +140,16 @@ class Patch(Picture):
         self.set_range(self.x_range, shown.middle - shown.half_y, shown.middle + shown.half_y)
         self.set_range(self.y_range, -shown.half_x, shown.half_x)
         self.tell("y is stretched" if shown.is_stretched else "")
+
+
+def scale_bar(mapper: LinearColorMapper, title: str, ticks: Any) -> ColorBar:
+    """What colours stand for, in the upper right corner."""
+    return ColorBar(
+        color_mapper=mapper, orientation="horizontal", width=86, height=6, padding=2, margin=10,
+        location="top_right", title=title, title_text_font_size="10px",
+        title_text_font_style="normal", title_standoff=1, label_standoff=2,
+        major_label_text_font_size="10px", major_tick_line_color=None, ticker=ticks,
+        background_fill_alpha=0.7)
 
 
 class Window(NamedTuple):
@@ -275,6 +201,7 @@ class Pressure(Picture):
         strips = self.figure.line("y", "p", source=self.source("strips", "y p"),
                                   **STRIPS.line)
         self.hover(strips, [("y", "@y{0.00} mm"), ("pressure", "@p{0} MPa")])
+        self.limit = shakedown_line(self)
         self.figure.line("y", "p", source=self.source("hertz", "y p"), **HERTZ.line)
         self.draw_norm("p")
 
@@ -293,8 +220,16 @@ class Pressure(Picture):
         else:
             few = marked(rows.y / window(outcome).half_y, 2.0 * rows.pressure / top)
             self.put("norm", {"y": rows.y[few], "p": rows.pressure[few]})
+        self.out.set(self.limit, location=SHAKEDOWN * outcome.case.yield_shear)
         if highest > 0.0:
             self.set_range(self.y_range, 0.0, top)
+
+
+def shakedown_line(picture: Picture) -> Span:
+    """Where the pressure of shakedown is."""
+    line = Span(location=SHAKEDOWN, dimension="width", line_color="#a0306a", line_dash="dashdot")
+    picture.figure.add_layout(line)
+    return line
 
 
 class Tractions(Picture):
@@ -341,7 +276,7 @@ class Creep(Picture):
     """The force over one creepage, and where the case is on it."""
 
     def __init__(self, out: Direct) -> None:
-        super().__init__(out, "Creep curve", "", "",
+        super().__init__(out, "Creep curve", CONTROL["cksi"].label, "Fx on the rail over μ·N",
                          x_range=Range1d(-1.0, 1.0),
                          y_range=Range1d(-1.1, 1.1))
         items = []
@@ -357,31 +292,26 @@ class Creep(Picture):
             items=[*items, (NORM.label, [dots])], location="top_right", padding=2, spacing=0,
             margin=2, label_text_font_size="10px", glyph_height=14, label_height=14,
             border_line_color=None, background_fill_alpha=0.6))
-        self.here = Span(location=0.0, dimension="height", line_color=GREY, line_dash="dotted")
-        self.figure.add_layout(self.here)
+        self.here = here(self)
         self.figure.scatter("creepage", "force", marker="marker", size=9, fill_color="colour",
                             line_color="white",
                             source=self.source("now", "creepage force marker colour"))
 
-    def show(self, outcome: Outcome) -> None:
+    def show(self, outcome: Outcome, curve: Optional[Curve]) -> None:
         control = CONTROL[outcome.axis]
         force = "Fx" if outcome.axis == "cksi" else "Fy"
         plot = self.figure
-        self.out.set(plot.xaxis[0], axis_label=f"{control.title}, {control.unit}")
+        self.out.set(plot.xaxis[0], axis_label=control.label)
         self.out.set(plot.yaxis[0], axis_label=f"{force} on the rail over μ·N")
         value = getattr(outcome.case, outcome.axis) / control.scale
         self.out.set(self.here, location=value)
-        if outcome.curve is None:
-            self.clear("")
-            return
-        half = outcome.curve.creepage[-1] / control.scale
+        half = half_width(outcome.axis, getattr(outcome.case, outcome.axis)) / control.scale
         self.set_range(self.x_range, -half, half)
         self._points(outcome, value)
-        if self.key is outcome.curve:
+        if self.is_as_before(curve, "strips", "hertz") or curve is None:
             return
-        self.key = outcome.curve
-        for name, forces in forces_of(outcome.curve, force).items():
-            self.put(name, {"creepage": outcome.curve.creepage / control.scale, "force": forces})
+        for name, forces in (curve.fx if force == "Fx" else curve.fy).items():
+            self.put(name, {"creepage": curve.creepage / control.scale, "force": forces})
 
     def _points(self, outcome: Outcome, value: float) -> None:
         rows: Dict[str, List[Any]] = {"creepage": [], "force": [], "marker": [], "colour": []}
@@ -397,8 +327,71 @@ class Creep(Picture):
         self.put("now", rows)
 
 
-def forces_of(curve: Curve, force: str) -> Dict[str, Any]:
-    return curve.fx if force == "Fx" else curve.fy
+class Sweep(Picture):
+    """Maximum pressures over the lateral displacement."""
+
+    def __init__(self, out: Direct) -> None:
+        super().__init__(out, "Sweep: maximum pressure", CONTROL["shift"].label,
+                         "pressure, MPa", x_range=Range1d(SWEEP[0], SWEEP[-1]),
+                         y_range=Range1d(0.0, 4000.0))
+        for name in ("strips", "hertz"):
+            self.figure.line("y", "p", source=self.source(name, "y p"), **LOOKS[name].line)
+        self.limit = shakedown_line(self)
+        self.here = here(self)
+
+    def show(self, outcome: Outcome, survey: Survey) -> None:
+        self.out.set(self.limit, location=SHAKEDOWN * outcome.case.yield_shear)
+        self.out.set(self.here, location=outcome.case.shift)
+        if self.is_as_before(survey.pressure, "strips", "hertz") or survey.pressure is None:
+            return
+        for name, pressure in survey.pressure.items():
+            self.put(name, {"y": SWEEP, "p": pressure})
+        highest = max((float(np.nanmax(p)) for p in survey.pressure.values()
+                       if not np.all(np.isnan(p))), default=1.0)
+        self.set_range(self.y_range, 0.0, first_above(PRESSURES, min(1.05 * highest, 6000.0)))
+
+
+class Map(Picture):
+    """The creep force over both creepages."""
+
+    def __init__(self, out: Direct) -> None:
+        super().__init__(out, "Creep-force map, strips + FASTSTRIP", CONTROL["cksi"].label,
+                         CONTROL["ceta"].label)
+        self.now: Tuple[float, ...] = ()
+        mapper = LinearColorMapper(palette=viridis(64)[::-1], low=0.0, high=1.0)
+        colour = {"field": "part", "transform": mapper}
+        cells = self.figure.quad(left="left", right="right", bottom="bottom", top="top",
+                                 source=self.source("cells", "left right bottom top part"),
+                                 fill_color=colour, line_color=colour)
+        self.figure.add_layout(scale_bar(mapper, "force over μ·N",
+                                         FixedTicker(ticks=[0.0, 0.5, 1.0])))
+        self.hover(cells, [("force over μ·N", "@part{0.000}")])
+        self.figure.scatter("x", "y", source=self.source("now", "x y"), marker="circle", size=9,
+                            fill_color="white", line_color="black", line_width=1.6)
+
+    def show(self, outcome: Outcome, survey: Survey) -> None:
+        scale = [CONTROL[name].scale for name in AXES]
+        now = outcome.case.cksi / scale[0], outcome.case.ceta / scale[1]
+        if self.now != now:
+            self.now = now
+            self.put("now", {"x": now[:1], "y": now[1:]})
+        if self.is_as_before(survey.part, "cells") or survey.part is None:
+            return
+        ends = [np.linspace(-half, half, MAP_POINTS) / one
+                for half, one in zip(survey.half, scale)]
+        x, y = (values.ravel() for values in np.meshgrid(*ends))
+        wide, high = (0.5 * (one[1] - one[0]) for one in ends)
+        self.put("cells", {"left": x - wide, "right": x + wide, "bottom": y - high,
+                           "top": y + high, "part": survey.part.ravel()})
+        self.set_range(self.x_range, ends[0][0], ends[0][-1])
+        self.set_range(self.y_range, ends[1][0], ends[1][-1])
+
+
+def here(picture: Picture) -> Span:
+    """The line that marks where the case is."""
+    line = Span(location=0.0, dimension="height", line_color=GREY, line_dash="dotted")
+    picture.figure.add_layout(line)
+    return line
 
 
 class Times(Picture):
@@ -406,15 +399,15 @@ class Times(Picture):
 
     def __init__(self, out: Direct) -> None:
         rows = [label for _, label, _ in TIMES][::-1]
-        super().__init__(out, "What it cost on this machine", "time, ms", "", width=230,
-                         height=104, x_range=Range1d(SHORTEST, LONGEST), y_range=rows,
-                         x_axis_type="log", min_border_left=126)
+        super().__init__(out, "Solution times on this machine", "time, ms", "",
+                         x_range=Range1d(SHORTEST, LONGEST), y_range=rows, x_axis_type="log")
         source = self.source("times", "row left right colour text")
-        self.figure.hbar(y="row", left="left", right="right", height=0.7, fill_color="colour",
-                         line_color=None, source=source)
-        self.figure.text("right", "row", text="text", source=source, x_offset=4,
+        self.figure.hbar(y="row", left="left", right="right", height=0.9, fill_color="colour",
+                         fill_alpha=0.35, line_color=None, source=source)
+        self.figure.text("left", "row", text="text", source=source, x_offset=4,
                          text_baseline="middle", text_font_size=SMALL)
         self.figure.ygrid.grid_line_color = None
+        self.figure.yaxis[0].visible = False
         self.figure.xaxis[0].ticker.desired_num_ticks = 4
         self.figure.xaxis[0].formatter = CustomJSTickFormatter(
             code="return tick >= 1000 ? (tick/1000) + ' s' : tick + ''")
@@ -425,7 +418,7 @@ class Times(Picture):
         self.put("times", {
             "row": [label for label, _, _ in rows], "colour": [colour for _, colour, _ in rows],
             "left": [SHORTEST] * len(rows), "right": [max(ms, SHORTEST) for _, _, ms in rows],
-            "text": [time_text(ms) for _, _, ms in rows]})
+            "text": [f"{label}: {time_text(ms)}" for label, _, ms in rows]})
 
 
 def time_text(ms: float) -> str:
@@ -436,7 +429,7 @@ def time_text(ms: float) -> str:
 
 
 class Pictures:
-    """All pictures of a page."""
+    """All pictures of one contact."""
 
     def __init__(self, out: Direct) -> None:
         self.profiles = Profiles(out)
@@ -445,17 +438,19 @@ class Pictures:
         self.pressure = Pressure(out, shared[0])
         self.tractions = {name: Tractions(out, name, *shared) for name in ("strips", "hertz")}
         self.creep = Creep(out)
+        self.sweep = Sweep(out)
+        self.map = Map(out)
         self.times = Times(out)
 
-    def rows(self) -> List[List[Any]]:
-        """The figures as they stand beside and below each other."""
-        return [[self.profiles.figure, self.patch.figure, self.pressure.figure],
-                [self.tractions["strips"].figure, self.tractions["hertz"].figure,
-                 self.creep.figure]]
+    def all(self) -> List[Picture]:
+        """In the order in which they stand beside and below each other."""
+        return [self.profiles, self.patch, self.pressure, *self.tractions.values(), self.creep,
+                self.sweep, self.map, self.times]
 
-    def show(self, outcome: Outcome) -> None:
-        """Draw anew what shows something else than before."""
-        normal = outcome.where, outcome.rows is not None
+    def show(self, outcome: Outcome, survey: Survey, rests: bool = True) -> None:
+        """Draw anew what shows something else than before; what is not known yet when the sliders
+        rest."""
+        normal = outcome.where, outcome.case.yield_shear, outcome.rows is not None
         for picture, key in ((self.profiles, outcome.where), (self.patch, normal),
                              (self.pressure, normal),
                              (self.tractions["strips"], outcome.motion),
@@ -463,4 +458,9 @@ class Pictures:
             if picture.key != key:
                 picture.show(outcome)
                 picture.key = key
-        self.creep.show(outcome)
+        if rests or survey.curve is not None:
+            self.creep.show(outcome, survey.curve)
+        if rests:
+            self.sweep.show(outcome, survey)
+        if rests or survey.part is not None:
+            self.map.show(outcome, survey)

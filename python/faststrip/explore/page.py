@@ -7,7 +7,7 @@ import html
 import json
 import threading
 import time
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any, Callable, Dict, List, Optional, Tuple, Union
 
 from bokeh.document import Document
 from bokeh.embed import json_item
@@ -18,51 +18,45 @@ from bokeh.models import (
     ColumnDataSource,
     CustomJS,
     Div,
-    FileInput,
     RadioButtonGroup,
-    Select,
-    Slider,
-    Spinner,
     Title,
 )
 
 from .._library import FaststripError
 from .case import (
     CONTROL,
-    CONTROLS,
-    ENDINGS,
     STANDARD,
     Case,
     CaseError,
     Shape,
     read_shape,
+    smoothed,
     to_case,
     to_slider,
 )
+from .controls import FIT, LEAST, Controls
 from .exporting import Program, Reference, case_files, numbers_csv, packed
 from .figures import Pictures, time_text
-from .look import HERTZ, NORM, SMALL, STRIPS, Look
-from .solving import AXES, Outcome, Solver
+from .look import BAD, SMALL
+from .picture import BESIDE_FRAME, HEIGHT, NOTE, WIDTH, Picture
+from .solving import AXES, Outcome, Solver, Survey
+from .tables import (
+    status_of,
+    summary_of,
+    table_of,
+    wheelset_status_of,
+    wheelset_table_of,
+)
+from .wheelset import Functions, WheelsetOutcome, WheelsetSolver
+from .wheelset_figures import WheelsetPictures
 from .wire import Direct, sender
 
 LEFT = 258  # width of the controls, px
-HALF = LEFT // 2 - 8
+VIEWS = "contact", "wheelset"
+REST = 250  # ms without a change, then what takes longer is solved
 SIGNS = ("x ahead, y to the right (of a right wheel: to the field side), z down. Creepages: rail "
          "relative to wheel over the rolling speed; forces act on the rail. Yaw: nose to the "
          "right.")
-METHODS = (("strips", STRIPS), ("hertz", HERTZ), ("norm", NORM))
-# Symbol, unit, attribute, what one unit is, format, estimated error and what it is a part of.
-ROWS = (("penetration", "mm", "penetration", 1.0, ".4f", "est_err_penetration"),
-        ("contact area", "mm²", "area", 1.0, ".1f", "est_err_area"),
-        ("maximum pressure", "MPa", "pmax", 1.0, ".0f", "est_err_pmax"),
-        ("Fx", "kN", "fx", 1e3, ".3f", "est_err_fx"),
-        ("Fy", "kN", "fy", 1e3, ".3f", "est_err_fy"),
-        ("Mz", "N m", "mz", 1e3, ".2f", "est_err_mz"),
-        ("T gamma", "N", "friction_power", 1.0, ".2f", None),
-        ("adhesion", "%", "stick_fraction", 1e-2, ".0f", None))
-# The name of the file stands in the list above.
-FILE_STYLE = "input { color: transparent; } input::file-selector-button { width: 100%; }"
-NUMBER_STYLE = "input { padding: 0 2px 0 6px !important; font-size: 12px; }"
 DOWNLOAD = """
 const {name, content, type} = Object.fromEntries(
     Object.entries(cb_obj.data).map(([key, values]) => [key, values[0]]))
@@ -100,98 +94,103 @@ class Page:
 
     def __init__(self, document: Document, case: Case) -> None:
         self.document = document
-        self.solver = Solver()
+        self.solver, self.wheelsets = Solver(), WheelsetSolver()
+        self.slow, self.slow_wheelsets = Solver(), WheelsetSolver()  # of the other thread
         self.wire = sender()
         self.pictures = Pictures(self.wire)
+        self.wheelset_pictures = WheelsetPictures(self.wire)
         self.shapes: Dict[str, Dict[str, Shape]] = {
             kind: {**STANDARD[kind], getattr(case, kind).label: getattr(case, kind)}
             for kind in ("wheel", "rail")}
         self.outcome = Outcome(case)
+        self.wheelset = WheelsetOutcome(case)
+        self.survey = Survey()
+        self.functions: Union[None, str, Functions] = None
         self.begun = case
         self.reference: Optional[Reference] = None
         self.run: Optional[Program] = None
-        self.pending = False
-        self._make_controls(case)
+        self.pending = self.is_slow = self.is_ready = False
+        self.rest: Any = None
+        self.controls = Controls(case, self.shapes, self.changed, lambda kind:
+                                 document.add_next_tick_callback(lambda: self.take_file(kind)))
+        self.controls.view.on_change("active", self.turn)
         self._make_texts()
         document.add_root(self._layout())
         document.title = "faststrip explore"
-        if self.wire.on_ready is not None:
-            document.js_on_event(DocumentReady, self.wire.on_ready)
+        for script in (self.wire.on_ready, self._fit()):
+            if script is not None:
+                document.js_on_event(DocumentReady, script)
+        document.on_event(DocumentReady, self.be_ready)
         document.on_session_destroyed(self._leave)
-        self.update()
+        self.turn("active", 0, 0)
 
     # What stands on the page
 
-    def _make_controls(self, case: Case) -> None:
-        self.selects: Dict[str, Select] = {}
-        self.files: Dict[str, FileInput] = {}
-        for kind in ("wheel", "rail"):
-            self.selects[kind] = Select(
-                title=f"{kind} profile", name=kind, width=HALF, margin=(0, 4, 0, 4),
-                value=getattr(case, kind).label, options=list(self.shapes[kind]))
-            self.selects[kind].on_change("value", self.changed)
-            self.files[kind] = FileInput(
-                name=f"{kind}_file", width=HALF, margin=(2, 4, 2, 4),
-                stylesheets=[FILE_STYLE], accept=ENDINGS.replace(" ", ","),
-                title=f"or drop a {kind} file")
-            self.files[kind].on_change("value", lambda attr, old, new, kind=kind:
-                                       self.document.add_next_tick_callback(
-                                           lambda: self.take_file(kind)))
-        self.sliders: Dict[str, Slider] = {}
-        self.spinners: Dict[str, Spinner] = {}
-        for control in CONTROLS:
-            value = to_slider(control, getattr(case, control.name))
-            title = control.title
-            if control.name == "load" and not case.is_vertical:
-                title = "normal force N"
-            title += ("" if control.unit == "-" else f", {control.unit}")
-            slider = Slider(start=control.low, end=control.high, step=control.step, value=value,
-                            title=title, show_value=False, width=LEFT - 90, name=control.name,
-                            margin=(0, 5, 0, 8))
-            spinner = Spinner(low=control.low, high=control.high, step=control.step, value=value,
-                              width=72, name=f"{control.name}_number", format="0.[0000]",
-                              margin=(2, 0, 0, 0), stylesheets=[NUMBER_STYLE])
-            slider.js_on_change("value", CustomJS(
-                args={"other": spinner}, code="other.setv({value: this.value}, {sync: false})"))
-            spinner.js_link("value", slider, "value")
-            slider.on_change("value", self.changed)
-            self.sliders[control.name], self.spinners[control.name] = slider, spinner
-        self.axis = RadioButtonGroup(labels=[f"over {name}" for name in AXES], active=0,
-                                     name="axis", width=230, margin=(2, 5, 4, 130))
-        self.axis.on_change("active", self.changed)
-
     def _make_texts(self) -> None:
-        self.status = Div(text='<div class="put" role="status"></div>', name="status", width=1000,
-                          height=18, margin=(2, 0, 0, 4))
-        self.table = Div(text='<div class="put"></div>', name="numbers", width=600, height=160,
-                         margin=(0, 0, 0, 4))
+        self.axis = RadioButtonGroup(labels=[f"over {name}" for name in AXES], active=0,
+                                     name="axis", margin=(2, 4, 4, 4),
+                                     sizing_mode="stretch_width")
+        self.axis.on_change("active", self.changed)
+        self.status = Div(text='<div class="put" role="status"></div>', name="status",
+                          sizing_mode="stretch_width", margin=(2, 0, 0, 4),
+                          styles={"min-height": "18px"})
+        self.tables = {view: Div(
+            text='<div class="put" tabindex="0"></div>', name=f"{view}_numbers",
+            margin=(0, 0, 0, 4), styles={"max-width": "calc(100% - 8px)", "overflow-x": "auto"})
+            for view in VIEWS}
         self.download = ColumnDataSource({"name": [], "content": [], "type": []}, name="download")
         self.download.js_on_change("data", CustomJS(code=DOWNLOAD))
         self.drawing = ColumnDataSource({"item": []}, name="drawing")
         self.drawing.js_on_change("data", CustomJS(code=DRAW_SVG))
 
-    def _button(self, label: str, name: str, work: Callable[[], None], width: int) -> Button:
-        button = Button(label=label, name=name, width=width, margin=(2, 4, 2, 4))
+    def _button(self, label: str, name: str, work: Callable[[], None]) -> Button:
+        button = Button(label=label, name=name, sizing_mode="stretch_width", margin=(2, 4, 2, 4))
         button.on_click(lambda: work())
         return button
 
     def _layout(self) -> Any:
-        self.norm = self._button("Solve by NORM + TANG", "solve_norm", self.start_norm, LEFT - 8)
-        buttons = [
-            row(self._button("Case (.nml)", "case", self.save_case, HALF),
-                self._button("Numbers (.csv)", "csv", self.save_numbers, HALF)),
-            row(self._button("Picture (.svg)", "svg", self.save_picture, HALF),
-                self._button("Free rolling", "free", self.roll_freely, HALF)), self.norm]
+        def beside(*models: Any) -> Any:
+            return row(*models, sizing_mode="stretch_width")
+
+        self.norm = self._button("Solve by NORM + TANG", "solve_norm", self.start_norm)
+        colours = Button(label="dark / light", name="scheme", width=90, margin=(0, 4, 0, 4))
+        colours.js_on_click(CustomJS(code="turn()"))
+        # What one contact has and a wheelset has not.
+        self.own = column(
+            Div(text="creep curve", height=14, margin=(0, 4, 0, 8)), self.axis,
+            beside(self._button("Case (.nml)", "case", self.save_case),
+                   self._button("Numbers (.csv)", "csv", self.save_numbers)),
+            self._button("Free rolling", "free", self.roll_freely), self.norm,
+            sizing_mode="stretch_width", name="own")
         controls = column(
-            Div(text="<b>faststrip</b>", height=18), row(*self.selects.values()),
-            row(*self.files.values()),
-            *(row(self.sliders[name], self.spinners[name]) for name in CONTROL), *buttons,
+            beside(Div(text="<b>faststrip</b>", sizing_mode="stretch_width"), colours),
+            *self.controls.rows(), self.own,
+            self._button("Picture (.svg)", "svg", self.save_picture),
             Div(text=f'<div style="font-size:11px;color:#444;line-height:14px">{SIGNS}</div>',
-                width=LEFT - 14, name="signs", margin=(8, 4, 0, 6)),
-            width=LEFT, name="controls")
-        self.grid = gridplot(self.pictures.rows(), toolbar_location=None)
-        bottom = row(self.table, column(self.axis, self.pictures.times.figure))
-        return row(controls, column(self.status, self.grid, bottom, self._hidden()), name="page")
+                sizing_mode="stretch_width", name="signs", margin=(8, 4, 0, 6)),
+            name="controls", styles={"flex": "0 0 var(--left)", "min-width": "0"})
+        all_pictures: Dict[str, List[Picture]] = {
+            "contact": self.pictures.all(), "wheelset": self.wheelset_pictures.all()}
+        self.grids = {view: row(*(one.figure for one in pictures), self.tables[view],
+                                name=f"{view}_view",
+                                styles={"flex-wrap": "wrap", "align-items": "flex-start"})
+                      for view, pictures in all_pictures.items()}
+        shown = column(self.status, *self.grids.values(), self._hidden(),
+                       styles={"flex": "1 1 var(--right)", "min-width": "0"}, name="shown")
+        return row(controls, shown, name="page",
+                   styles={"flex-wrap": "wrap", "align-items": "flex-start", "width": "100%"})
+
+    def _fit(self) -> CustomJS:
+        """As many columns of pictures as there is width for."""
+        pictures: List[Picture] = [*self.pictures.all(), *self.wheelset_pictures.all()]
+        numbers = self.controls.numbers
+        return CustomJS(code=FIT, args={
+            "figures": [one.figure for one in pictures], "notes": [one.note for one in pictures],
+            "spans": [one.span for one in pictures], "left": LEFT, "width": WIDTH,
+            "height": HEIGHT, "beside": BESIDE_FRAME, "below": NOTE, "least": LEAST,
+            "labels": {name: CONTROL[name].label for name in numbers},
+            "sliders": {name: one.slider.id for name, one in numbers.items()},
+            "inputs": {name: one.field.id for name, one in numbers.items()}})
 
     def _hidden(self) -> Any:
         """Sources that belong to no figure."""
@@ -200,15 +199,30 @@ class Page:
 
     # What happens
 
+    @property
+    def view(self) -> str:
+        """Which of the views is shown."""
+        return VIEWS[self.controls.view.active or 0]
+
+    def turn(self, attr: str, old: Any, new: Any) -> None:
+        """Show another view."""
+        for view, grid in self.grids.items():
+            grid.visible = view == self.view
+        self.own.visible = self.view == "contact"
+        self.controls.show(self.view)
+        self.update()
+
     def case(self) -> Case:
         """The case that the controls tell."""
-        told: Dict[str, Any] = {name: to_case(CONTROL[name], slider.value)
-                                for name, slider in self.sliders.items()}
-        told.update((kind, self.shapes[kind][select.value])
-                    for kind, select in self.selects.items())
+        told: Dict[str, Any] = {name: to_case(CONTROL[name], number.slider.value)
+                                for name, number in self.controls.numbers.items()}
+        wavelength = told.pop("smoothing")
+        told.update((kind, smoothed(kind, self.shapes[kind][select.value], wavelength))
+                    for kind, select in self.controls.selects.items())
         # What was said of the first rail is not said of another one.
-        said = self.begun.given_inclination if told["rail"] is self.begun.rail else None
-        return Case(**told, is_vertical=self.begun.is_vertical, given_inclination=said)
+        is_first = self.shapes["rail"][self.controls.selects["rail"].value] is self.begun.rail
+        return Case(**told, is_vertical=self.controls.load.active == 0,
+                    given_inclination=self.begun.given_inclination if is_first else None)
 
     def changed(self, attr: str, old: Any, new: Any) -> None:
         """Solve when what has come with this is in too."""
@@ -219,39 +233,109 @@ class Page:
     def update(self) -> None:
         """Solve, and show what is other than before."""
         self.pending = False
-        case = self.case()
-        self.outcome = self.solver.solve(case, list(AXES)[self.axis.active])
-        if self.reference is not None and self.outcome.motion != self.reference_of:
-            self.reference = None
-        self.show()
-        self.document.add_next_tick_callback(lambda: self.solver.prepare(case))
+        try:
+            case = self.case()
+        except CaseError as problem:
+            self.say(str(problem))
+            return
+        if self.view == "wheelset":
+            self.wheelset = self.wheelsets.solve(case)
+        else:
+            self.outcome = self.solver.solve(case, list(AXES)[self.axis.active or 0])
+            if self.reference is not None and self.outcome.motion != self.reference_of:
+                self.reference = None
+        self.show(rests=not self.is_ready)
+        self.wait()
 
-    def show(self) -> None:
+    def show(self, rests: bool = True) -> None:
+        """Show what was solved; only when the sliders rest what it took and what takes longer."""
         start = time.thread_time()
+        if self.view == "wheelset":
+            self.wheelset_pictures.show(self.wheelset, self.functions)
+            self.wire.write(self.tables["wheelset"], wheelset_table_of(self.wheelset))
+            self.say()
+            return
         outcome = self.outcome
         if self.reference is not None:
             outcome.answers["norm"] = self.reference.answer
             outcome.rows = self.reference
             outcome.times["norm"] = self.reference.seconds
-        self.pictures.show(outcome)
-        self.wire.write(self.table, table_of(outcome))
+        self.pictures.show(outcome, self.survey.still(outcome.case, outcome.axis), rests)
+        self.wire.write(self.tables["contact"], table_of(outcome))
         outcome.times["pictures"] = time.thread_time() - start
-        self.pictures.times.show(outcome.times)
+        if rests:
+            self.pictures.times.show({**outcome.times, **self.slow.times})
         self.say()
 
     def say(self, trouble: str = "") -> None:
         """The line above the pictures: what is wrong, or how it ended."""
-        text, colour = trouble, "#a0306a"
+        text, colour = trouble, BAD
         if not trouble:
-            text, colour = status_of(self.outcome)
-        self.wire.write(self.status, (
-            f'<div style="color:{colour};width:1000px;overflow:hidden;text-overflow:ellipsis;'
-            f'white-space:nowrap">{html.escape(text)}</div>'))
+            text, colour = (wheelset_status_of(self.wheelset) if self.view == "wheelset"
+                            else status_of(self.outcome))
+        self.wire.write(self.status, f'<div style="color:{colour}">{html.escape(text)}</div>')
         self.wire.send()
+
+    # What takes longer, in a thread of its own once the sliders rest
+
+    def wait(self) -> None:
+        """Wait until the sliders rest, in a browser that has what was shown first."""
+        if self.rest is not None:
+            self.document.remove_timeout_callback(self.rest)
+        self.rest = (self.document.add_timeout_callback(self.start_slow, REST)
+                     if self.is_ready else None)
+
+    def be_ready(self, event: Any) -> None:
+        """The browser has all."""
+        self.is_ready = True
+        self.wait()
+
+    def start_slow(self) -> None:
+        """Solve sweep and map, or contact functions, of what is shown."""
+        self.rest = None
+        self.show()
+        if self.is_slow:
+            return
+        self.is_slow = True
+        of = self.shown()
+
+        def work() -> None:
+            view, case, axis = of
+            steps = ([self.slow_wheelsets.functions(case)] if view == "wheelset"
+                     else self.slow.survey(case, axis))
+            for found in steps:
+                self.document.add_next_tick_callback(
+                    lambda found=found: self.take_slow(of, found))
+                if self.shown() != of:
+                    break
+            self.document.add_next_tick_callback(lambda: self.end_slow(of))
+
+        threading.Thread(target=work, daemon=True).start()
+
+    def shown(self) -> Tuple[str, Case, str]:
+        """What the page is of now."""
+        view = self.view
+        return (view, self.wheelset.case if view == "wheelset" else self.outcome.case,
+                self.outcome.axis)
+
+    def take_slow(self, of: Tuple[str, Case, str], found: Any) -> None:
+        """Show what was found, as far as it is of what is shown."""
+        if of[0] == "wheelset":
+            self.functions = found
+        else:
+            self.survey = found
+        if of[0] == self.view:
+            self.show()
+
+    def end_slow(self, of: Tuple[str, Case, str]) -> None:
+        """Go on if something else is shown by now."""
+        self.is_slow = False
+        if self.shown() != of and self.rest is None:
+            self.start_slow()
 
     def take_file(self, kind: str) -> None:
         """A file was chosen or dropped."""
-        chosen = self.files[kind]
+        chosen = self.controls.files[kind]
         if not chosen.value:
             return
         try:
@@ -263,7 +347,7 @@ class Page:
             self.say(f"a file must not be called as a profile of the list: {shape.label}")
             return
         self.shapes[kind][shape.label] = shape
-        select = self.selects[kind]
+        select = self.controls.selects[kind]
         select.options = list(self.shapes[kind])
         if select.value == shape.label:
             self.changed("value", "", "")
@@ -273,14 +357,14 @@ class Page:
         """Creepages of a wheelset that rolls freely at this displacement and yaw."""
         try:
             creepage = self.solver.free_rolling(self.case())
-        except FaststripError as problem:
+        except (FaststripError, CaseError) as problem:
             self.say(str(problem))
             return
         beyond = []
         for name, value in zip(AXES, creepage):
             control = CONTROL[name]
             wanted = to_slider(control, value)
-            slider = self.sliders[name]
+            slider = self.controls.numbers[name].slider
             slider.value = min(max(round(wanted, 6), control.low), control.high)
             if slider.value != round(wanted, 6):
                 beyond.append(f"{control.title} {wanted:.3g} {control.unit}")
@@ -300,13 +384,21 @@ class Page:
         self.send("explore.csv", numbers_csv(self.outcome).encode("utf-8"), "text/csv")
 
     def save_picture(self) -> None:
-        pictures = Pictures(Direct())
-        pictures.show(self.outcome)
-        pictures.times.show(self.outcome.times)
-        for figure, text in zip(pictures.rows()[0], summary_of(self.outcome)):
+        if self.view == "wheelset":
+            wheelset = WheelsetPictures(Direct())
+            wheelset.show(self.wheelset, self.functions)
+            case, shown, columns = self.wheelset.case, wheelset.all(), 1
+        else:
+            pictures = Pictures(Direct())
+            pictures.show(self.outcome, self.survey.still(self.outcome.case, self.outcome.axis))
+            pictures.times.show(self.outcome.times)
+            case, shown, columns = self.outcome.case, pictures.all(), 3
+        figures = [one.figure for one in shown]
+        for figure, text in zip(figures, summary_of(case, None if self.view == "wheelset" else
+                                                    self.outcome)):
             figure.add_layout(Title(text=text, text_font_size=SMALL, text_font_style="normal"),
                               "above")
-        item = json_item(gridplot(pictures.rows(), toolbar_location=None))
+        item = json_item(gridplot(figures, ncols=columns, toolbar_location=None))
         self.drawing.data = {"item": [json.dumps(item)]}
 
     # NORM + TANG, which takes as long as it takes
@@ -348,91 +440,3 @@ class Page:
     def _leave(self, context: Any) -> None:
         if self.run is not None:
             self.run.end()
-
-
-WORDS = {
-    "ok": "ok: the estimated errors are small",
-    "fallback_used": "a fixed lattice gave the answer: the ends of the patch did not converge",
-    "edge_of_data": "the contact runs to the end of the profiles",
-    "fewer_strips": "more strips did not converge",
-    "overlap_left": "valleys overlap beside the patches",
-    "flat_along_x": "the gap is nearly flat along x",
-    "conformal": "the surfaces turn much within the contact: the half-space is doubtful",
-    "under_resolved": "an estimated error is above its limit",
-    "more_strips": "more strips than usual gave the answer",
-}
-
-
-def summary_of(outcome: Outcome) -> List[str]:
-    """A case in three lines, for a picture that stands alone."""
-    case = outcome.case
-    numbers = {control.name: f"{to_slider(control, getattr(case, control.name)):g} {control.unit}"
-               for control in CONTROLS}
-    strips = outcome.answers.get("strips")
-    word = strips.result.word if strips is not None and strips.result is not None else "no result"
-    load = "Q" if case.is_vertical else "N"
-    return [f"{case.wheel.label} on {case.rail.label}, y {numbers['shift']}, "
-            f"yaw {numbers['yaw']}, {load} {numbers['load']}",
-            ", ".join(f"{name} {numbers[name]}" for name in AXES) + f", mu {case.mu:g}",
-            f"{STRIPS.label}: {word}"]
-
-
-def status_of(outcome: Outcome) -> Any:
-    """How it ended, in one line, and its colour."""
-    if outcome.error:
-        return outcome.error, "#a0306a"
-    parts = []
-    if outcome.case.is_as_it_lies:
-        parts.append(f"{outcome.case.rail.label}: inclination 0, as the file has it")
-    colour = "#222222"
-    for name, look in METHODS:
-        answer = outcome.answers.get(name)
-        if answer is None:
-            continue
-        if answer.result is None:
-            parts.append(f"{look.label}: {answer.error}")
-        elif name == "strips" or answer.result.word != "ok":
-            word = answer.result.word
-            parts.append(f"{look.label}: {WORDS.get(word, word)}"
-                         + (f" ({word})" if word != "ok" else ""))
-        if name == "strips" and (answer.result is None or answer.result.word != "ok"):
-            colour = "#a0306a"
-    return "; ".join(parts), colour
-
-
-def percent(part: float) -> str:
-    """A part in percent, with two digits."""
-    value = 100.0 * part
-    return f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
-
-
-def sample(look: Look) -> str:
-    """A piece of the line of a method, or its mark."""
-    if look is NORM:
-        return (f'<svg width="10" height="8"><circle cx="5" cy="4" r="3" fill="white" '
-                f'stroke="{look.colour}" stroke-width="1.4"/></svg>')
-    dashes = {"solid": "", "dashed": "6 3"}[look.dash]
-    return (f'<svg width="24" height="8"><line x1="0" x2="24" y1="4" y2="4" stroke="{look.colour}"'
-            f' stroke-width="{look.width:g}" stroke-dasharray="{dashes}"/></svg>')
-
-
-def table_of(outcome: Outcome) -> str:
-    """The numbers of all methods, with their estimated errors."""
-    cell = "padding:0 8px 0 0;text-align:right;white-space:nowrap"
-    head = "".join(f'<th colspan="2" style="{cell};text-align:center">{sample(look)} '
-                   f"{look.label}</th>" for _, look in METHODS)
-    lines = [f'<tr><th style="text-align:left">(estimated errors)</th>{head}</tr>']
-    for title, unit, attribute, scale, form, estimate in ROWS:
-        cells: List[str] = []
-        for name, _ in METHODS:
-            answer = outcome.answers.get(name)
-            result = answer.result if answer is not None else None
-            value = getattr(result, attribute, None) if result is not None else None
-            wrong = getattr(result, estimate, None) if result is not None and estimate else None
-            cells.append(f'<td style="{cell}">'
-                         + ("–" if value is None else f"{value / scale:{form}}") + "</td>"
-                         + '<td style="padding:0 6px 0 0;color:#444">'
-                         + ("" if wrong is None else f"({percent(wrong)} %)") + "</td>")
-        lines.append(f'<tr><td style="padding-right:8px">{title}, {unit}</td>{"".join(cells)}</tr>')
-    return ('<table style="font-size:11.5px;border-collapse:collapse;line-height:15px">'
-            f'{"".join(lines)}</table>')

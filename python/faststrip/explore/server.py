@@ -8,9 +8,10 @@ import errno
 import logging
 import signal
 import sys
+import warnings
 from typing import Any, List, Optional
 
-from .._library import FaststripError
+from .._library import FaststripError, ImplausibleWarning
 
 PORT = 5173
 HOST = "127.0.0.1"
@@ -23,10 +24,12 @@ def parser() -> argparse.ArgumentParser:
     """What the command takes."""
     made = argparse.ArgumentParser(
         prog="faststrip-explore",
-        description="Serve the interactive explorer: one wheel on one rail, solved while its "
-                    "sliders move. It is served on 127.0.0.1 only and loads nothing from the "
-                    "network. Ctrl-C ends it.",
+        description="Serve the interactive explorer: one wheel on one rail, or a wheelset on its "
+                    "track, solved while sliders move. It is served on 127.0.0.1 only and "
+                    "loads nothing from the network. Ctrl-C ends it.",
         epilog="Units mm, N, rad. Forces act on the rail. More: docs/usage.md.")
+    made.add_argument("files", metavar="FILE", nargs="*", help="a case file, CASE.nml, or the "
+                      "profiles of a wheel and of a rail, in this order")
     made.add_argument("--wheel", metavar="PROFILE", help="s1002 (default), cone20, cone40 or a "
                       "file of any format that 'faststrip profile' reads")
     made.add_argument("--rail", metavar="PROFILE", help="uic60 (default), 60e1, 54e1 or a file")
@@ -43,15 +46,11 @@ def parser() -> argparse.ArgumentParser:
 def main(words: Optional[List[str]] = None) -> int:
     """Serve the page until Ctrl-C; the exit code."""
     options = parser().parse_args(words)
+    from . import casefile
+    from .case import Case, CaseError, checked, find_shape
+
     try:
-        from . import casefile, page
-        from .case import Case, CaseError, checked, find_shape
-    except ModuleNotFoundError as problem:
-        if (problem.name or "").partition(".")[0] not in ("bokeh", "tornado"):
-            raise
-        print(MISSING, file=sys.stderr)
-        return 1
-    try:
+        take_files(options)
         case = casefile.read_case(options.case) if options.case else Case()
         if options.wheel is not None:
             case = dataclasses.replace(case, wheel=find_shape("wheel", options.wheel))
@@ -63,8 +62,33 @@ def main(words: Optional[List[str]] = None) -> int:
     except (CaseError, FaststripError) as problem:
         print(f"faststrip-explore: {problem}", file=sys.stderr)
         return 1
+    try:
+        from . import page
+    except ModuleNotFoundError as problem:
+        if (problem.name or "").partition(".")[0] not in ("bokeh", "tornado"):
+            raise
+        print(MISSING, file=sys.stderr)
+        return 1
     return serve(lambda document: page.Page(document, case), options.port,
                  not options.no_browser)
+
+
+def take_files(options: argparse.Namespace) -> None:
+    """Files that are given without an option, as if by their options; else CaseError."""
+    from .case import CaseError
+
+    files = options.files
+    names = ("case",) if len(files) == 1 else ("wheel", "rail")
+    if len(files) > len(names):
+        raise CaseError(f"one case file or a wheel and a rail can be opened, got {len(files)} "
+                        f"files: {' '.join(files)}")
+    if len(files) == 1 and not files[0].lower().endswith(".nml"):
+        raise CaseError("one file alone must be a case file, CASE.nml; profiles are opened by "
+                        f"WHEEL RAIL, --wheel or --rail, got {files[0]}")
+    for name, file in zip(names, files):
+        if getattr(options, name) is not None:
+            raise CaseError(f"--{name} must not be given with {file}")
+        setattr(options, name, file)
 
 
 def serve(fill: Any, port: int, with_browser: bool) -> int:
@@ -73,8 +97,10 @@ def serve(fill: Any, port: int, with_browser: bool) -> int:
     from bokeh.application.handlers.function import FunctionHandler
     from bokeh.server.server import Server
 
-    from .template import TEMPLATE
+    from .look import TEMPLATE
 
+    # The page says which pressures yield.
+    warnings.simplefilter("ignore", ImplausibleWarning)
     logging.getLogger("bokeh").setLevel(logging.ERROR)
     logging.getLogger("tornado.access").setLevel(logging.CRITICAL)
 

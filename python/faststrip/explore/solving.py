@@ -7,15 +7,17 @@ import dataclasses
 import functools
 import math
 import time
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from .._contact import Contact
-from .._library import FaststripError
+from .._library import FIRST_ERROR, FaststripError
+from .._many import solve_many
 from .._profile import draw_profile, profile_gap
 from .._results import Elements, Result, Strips
+from .._wear import Wear
 from .._wheelset import Wheelset
 from .case import RADIUS, Case
 
@@ -25,6 +27,10 @@ CURVE_POINTS = 31
 PROFILE_POINTS = 501
 ROLLING_SPEED = 2.0e4  # mm/s; only ratios of speeds count
 AXES = {"cksi": 0, "ceta": 1, "cphi": 2}
+# Displacements of a sweep, mm, and creepages of a map along each side.
+SWEEP = np.linspace(-10.0, 10.0, 41)
+MAP_POINTS = 17
+JUMP = 4.0  # mm on the wheel from one displacement to the next: the contact is another one
 # Half the width of a creep curve: the first that holds the creepage.
 WIDTHS = {"cksi": (0.005, 0.01, 0.02), "ceta": (0.005, 0.01, 0.02), "cphi": (0.0004, 0.001)}
 
@@ -55,6 +61,7 @@ class Answer(NamedTuple):
     strips: Optional[Strips]
     elements: Optional[Elements]
     error: str = ""
+    wear: Optional[Wear] = None
 
 
 class Curve(NamedTuple):
@@ -65,6 +72,34 @@ class Curve(NamedTuple):
     fy: Dict[str, Array]
 
 
+class Survey(NamedTuple):
+    """What takes longer than one contact; None where it is not known yet."""
+
+    curve: Optional[Curve] = None
+    pressure: Optional[Dict[str, Array]] = None
+    """maximum pressures at each of SWEEP, MPa; nan before a jump and where nothing touches"""
+    half: Tuple[float, float] = (0.0, 0.0)  #: of the creepages of the map
+    part: Optional[Array] = None
+    """force over mu N; rows of lateral, columns of longitudinal creepages"""
+    keys: Tuple[Any, Any, Any] = (None, None, None)  #: what curve, sweep and map are of
+
+    def still(self, case: Case, axis: str) -> Survey:
+        """What of it is of this case, too."""
+        curve, sweep, part = (a == b for a, b in zip(self.keys, survey_keys(case, axis)))
+        return self._replace(curve=self.curve if curve else None,
+                             pressure=self.pressure if sweep else None,
+                             part=self.part if part else None)
+
+
+def survey_keys(case: Case, axis: str) -> Tuple[Any, Any, Any]:
+    """What curve, sweep and map depend on."""
+    sweep = *case.pair, case.is_vertical, case.yaw, case.load
+    here = *sweep, case.shift, case.mu
+    others = tuple(value for k, value in enumerate(case.creepage) if k != AXES[axis])
+    return ((*here, axis, half_width(axis, getattr(case, axis)), others), sweep,
+            (*here, case.cphi, half_width("cksi", case.cksi), half_width("ceta", case.ceta)))
+
+
 @dataclasses.dataclass
 class Outcome:
     """Everything that the page shows of a case."""
@@ -73,7 +108,6 @@ class Outcome:
     geometry: Optional[Geometry] = None
     error: str = ""
     answers: Dict[str, Answer] = dataclasses.field(default_factory=dict)
-    curve: Optional[Curve] = None
     axis: str = "cksi"
     where: Any = None  #: what gap and pressures are of
     motion: Any = None  #: what forces are of
@@ -95,16 +129,11 @@ class Outcome:
 METHODS = {"strips": ("strip", "faststrip"), "hertz": ("hertz", "fastsim")}
 
 
-class Solver:
-    """Contacts and wheelsets that are kept from one change to the next; of one thread."""
+class Kept:
+    """Solutions that are kept, with what they took."""
 
     def __init__(self) -> None:
-        self._contacts = {name: Contact(normal=normal, tangential=tangential, with_elements=True)
-                          for name, (normal, tangential) in METHODS.items()}
-        self._curves = {name: Contact(normal=normal, tangential=tangential, estimate=False)
-                        for name, (normal, tangential) in METHODS.items()}
         self._kept: Dict[str, Tuple[Any, Any]] = {}
-        self._wheelset: Tuple[Any, Optional[Wheelset]] = None, None
         self.times: Dict[str, float] = {}
 
     def _once(self, name: str, key: Any, make: Callable[[], Any]) -> Any:
@@ -118,36 +147,43 @@ class Solver:
         self._kept[name] = key, made
         return made
 
-    def solve(self, case: Case, axis: str = "cksi") -> Outcome:
-        """Everything of a case; errors of a method stand in its place."""
-        outcome = Outcome(case, axis=axis)
-        pair = case.wheel, case.rail
-        outcome.profiles = self._once("profiles", (*pair, case.inclination), lambda: (
+    def _profiles(self, case: Case) -> Any:
+        """Points of wheel and rail, to be drawn."""
+        return self._once("profiles", case.pair, lambda: (
             draw_profile(case.wheel.profile, "wheel", n=PROFILE_POINTS),
             draw_profile(case.rail.profile, "rail", inclination=case.inclination,
                          n=PROFILE_POINTS)))
-        outcome.where = where = (*pair, case.inclination, case.is_vertical, case.shift, case.yaw,
-                                 case.load)
+
+
+class Solver(Kept):
+    """Contacts and wheelsets that are kept from one change to the next; of one thread."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._contacts = {name: Contact(normal=normal, tangential=tangential, with_elements=True)
+                          for name, (normal, tangential) in METHODS.items()}
+        self._curves = {name: Contact(normal=normal, tangential=tangential, estimate=False)
+                        for name, (normal, tangential) in METHODS.items()}
+        self._wheelset: Tuple[Any, Optional[Wheelset]] = None, None
+
+    def solve(self, case: Case, axis: str = "cksi") -> Outcome:
+        """Everything of a case; errors of a method stand in its place."""
+        outcome = Outcome(case, axis=axis)
+        outcome.profiles = self._profiles(case)
+        outcome.where = where = (*case.pair, case.is_vertical, case.shift, case.yaw, case.load)
         outcome.motion = motion = (*where, *case.creepage, case.mu)
-        geometry = self._once("gap", where if case.yaw else where[:-1],
-                              lambda: self._find_geometry(case))
+        geometry = self.geometry(case)
         if isinstance(geometry, str):
             outcome.error = geometry
         else:
-            if not case.yaw:
-                geometry = loaded(geometry, case)
             outcome.geometry = geometry
             for name in METHODS:
                 make = functools.partial(self._answer, name, geometry, case)
-                outcome.answers[name] = self._once(name, motion, make)
-            half = half_width(axis, getattr(case, axis))
-            others = tuple(value for k, value in enumerate(case.creepage) if k != AXES[axis])
-            outcome.curve = self._once("curve", (*where, case.mu, axis, half, others),
-                                       lambda: self._find_curve(geometry, case, axis, half))
+                outcome.answers[name] = self._once(name, (motion, case.yield_shear), make)
         outcome.times = dict(self.times)
         return outcome
 
-    def _find_geometry(self, case: Case) -> Any:
+    def _find_geometry(self, case: Case) -> Union[Geometry, str]:
         """The gap, or what is wrong in one line."""
         if case.yaw and not case.is_vertical:
             return "a yawed wheel must have a vertical load, got a normal one in the case file"
@@ -168,7 +204,7 @@ class Solver:
         return Geometry(wheelset.gap(most), contact.load, places[most], places, contact.radius)
 
     def _wheelset_of(self, case: Case) -> Wheelset:
-        key = case.wheel, case.rail, case.inclination
+        key = case.pair
         if self._wheelset[0] != key or self._wheelset[1] is None:
             self._wheelset = key, Wheelset(case.wheel.profile, case.rail.profile, radius=RADIUS,
                                            inclination=case.inclination, tangential="none",
@@ -185,7 +221,8 @@ class Solver:
         try:
             contact.set_gap(*geometry.gap)
             result = contact.solve(load=geometry.load, creepage=case.creepage, mu=case.mu)
-            return Answer(result, contact.strips(), contact.elements())
+            return Answer(result, contact.strips(), contact.elements(),
+                          wear=contact.wear(yield_shear=case.yield_shear))
         except FaststripError as problem:
             return Answer(None, None, None, str(problem))
 
@@ -210,6 +247,47 @@ class Solver:
             fx[name], fy[name] = np.array(rows).T
         return Curve(values, fx, fy)
 
+    def survey(self, case: Case, axis: str) -> Iterator[Survey]:
+        """Creep curve, sweep and map of a case, as soon as each is known."""
+        keys = curve, sweep, part = survey_keys(case, axis)
+        geometry = self.geometry(case)
+        found = Survey(keys=keys)
+        if not isinstance(geometry, str):
+            found = found._replace(curve=self._once("curve", curve, lambda: self._find_curve(
+                geometry, case, axis, half_width(axis, getattr(case, axis)))))
+            yield found
+        found = found._replace(pressure=self._once("sweep", sweep, lambda: self._sweep(case)))
+        yield found
+        if not isinstance(geometry, str):
+            half = half_width("cksi", case.cksi), half_width("ceta", case.ceta)
+            yield found._replace(half=half, part=self._once("map", part, lambda: map_of(
+                geometry, case, half)))
+
+    def geometry(self, case: Case) -> Union[Geometry, str]:
+        """The gap with its normal force, or what is wrong in one line."""
+        key = *case.pair, case.is_vertical, case.shift, case.yaw
+        found = self._once("gap", (*key, case.load) if case.yaw else key,
+                           lambda: self._find_geometry(case))
+        return found if case.yaw or isinstance(found, str) else loaded(found, case)
+
+    def _sweep(self, case: Case) -> Dict[str, Array]:
+        found = [self._find_geometry(dataclasses.replace(case, shift=y)) for y in SWEEP.tolist()]
+        bodies = {k: one if case.yaw else loaded(one, case) for k, one in enumerate(found)
+                  if not isinstance(one, str)}
+        there = list(bodies)
+        pressure = {name: np.full(len(SWEEP), math.nan) for name in METHODS}
+        if there:
+            for name, (normal, _) in METHODS.items():
+                many = solve_many([one.gap for one in bodies.values()],
+                                  load=[one.load for one in bodies.values()], normal=normal,
+                                  tangential="none", estimate=False, threads=1)
+                pressure[name][there] = np.where(many.status < FIRST_ERROR, many.pmax, math.nan)
+        places = np.array([math.nan if isinstance(one, str) else one.place.y_wheel
+                           for one in found])
+        for values in pressure.values():
+            values[:-1][np.abs(np.diff(places)) > JUMP] = math.nan
+        return pressure
+
     def free_rolling(self, case: Case) -> Tuple[float, float, float]:
         """The creepages of a wheelset that rolls freely where the case has it."""
         wheelset = self._wheelset_of(case)
@@ -218,6 +296,15 @@ class Solver:
                                pitch_rate=-ROLLING_SPEED / RADIUS)
         contact = max(found.contacts, key=lambda contact: contact.load)
         return contact.cksi, contact.ceta, contact.cphi
+
+
+def map_of(geometry: Geometry, case: Case, half: Tuple[float, float]) -> Array:
+    """Forces over mu N over both creepages; nan where there are none."""
+    cksi, ceta = (np.linspace(-one, one, MAP_POINTS) for one in half)
+    found = solve_many(geometry.gap, load=geometry.load, mu=case.mu, estimate=False,
+                       creepage=(cksi, ceta[:, None], case.cphi), threads=1)
+    part = np.hypot(found.fx, found.fy) / (case.mu * geometry.load)
+    return np.where(found.status < FIRST_ERROR, part, math.nan)
 
 
 def straight(case: Case) -> Geometry:
