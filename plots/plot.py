@@ -55,7 +55,7 @@ def draw_contact(file):
               xlabel="lateral $y$, mm", ylabel="distance, mm")
     for each in strips.patches:
         style.mark_width(space, each.y_left[0], each.y_right[-1])
-    space.legend()
+    style.legend_above(figure, space)
     space.set_title(words_of(table))
     if strips.patches:
         panels.draw_outlines(patch, strips)

@@ -52,11 +52,10 @@ def main(arguments=None):
     for patch in strips.patches if strips else ():
         style.mark_width(lower, patch.y_left[0], patch.y_right[-1])
     if gap is not None or strips is not None:
-        lower.legend(loc="lower right", bbox_to_anchor=(1.0, 0.99), ncols=4, borderaxespad=0.2,
-                     handlelength=2.6, columnspacing=1.6)
+        style.legend_above(figure, lower)
     lower.set(xlim=(near.min() - 1.0, near.max() + 1.0), ylim=(0.0, options.top),
               xlabel="lateral distance from the contact point, mm",
-              ylabel="undeformed distance, mm", title="Distance")
+              ylabel="undeformed distance, mm", title="Distance wheel to rail")
     output = options.output or command.shift_file("profiles", options.shift)[:-3] + "png"
     picture.save(figure, output, [profiles.stamp, gap and gap.stamp, strips and strips.stamp])
 

@@ -12,8 +12,8 @@ from faststrip_plots.tables import InputError
 RESULT = ("case", "series", "cksi", "N_N", "mu", "Fx_N")
 REFERENCE = ("series", "cksi", "Fx_N")
 PANELS = (("constant", "Constant friction"),
-          ("falling", "Friction that falls with slip: CONTACT with a soft\nlayer between the bodies,"
-           " the others with one factor"))
+          ("falling", "Friction that falls with slip: CONTACT with a soft\nlayer between"
+           " the bodies, the others with one factor"))
 # Name, and whose look it has.
 METHODS = (("tang", "TANG", style.METHOD["norm", "tang"]),
            ("fastsim", "FASTSIM", style.METHOD["hertz", "fastsim"]),

@@ -89,8 +89,11 @@ def plain_numbers(axis) -> None:
 
 def mark_width(axes, left: float, right: float) -> None:
     """Mark how wide a contact patch is, along the lateral axis."""
+    known = "width of the patch" in axes.get_legend_handles_labels()[1]
     axes.axvspan(left, right, facecolor=PATCH, alpha=0.25, linewidth=0, zorder=0.5,
-                 label=f"patch, {right - left:.1f} mm wide")
+                 label=None if known else "width of the patch")
+    axes.text(0.5 * (left + right), 0.96, f"{right - left:.1f} mm", rotation=90.0, ha="center",
+              va="top", fontsize=SMALL, transform=axes.get_xaxis_transform())
 
 
 def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> None:
