@@ -4,10 +4,13 @@ equivalent conicity over the amplitude."""
 
 import sys
 
+import numpy as np
+
 from faststrip_plots import command, picture, style
 
 EDITION = "EN 15302:2008+A1:2010"
-FUNCTIONS = ("y_mm", "delta_r_mm", "gamma_right_rad", "gamma_left_rad", "roll_rad")
+FUNCTIONS = ("y_mm", "delta_r_mm", "gamma_right_rad", "gamma_left_rad", "roll_rad",
+             "y_wheel_right_mm", "y_wheel_left_mm")
 CONICITY = ("amplitude_mm", "tan_gamma_e", "regression", "method")
 RIGHT, LEFT = style.NORMAL["strip"], style.NORMAL["hertz"]
 
@@ -29,27 +32,32 @@ def draw(functions, conicity):
     if "regression" not in conicity.words("method")[:1]:
         values.plot(amplitude, conicity.numbers("regression", missing=True),
                     **(LEFT.line_style | {"label": "linear regression"}))
-    values.set(xlabel="amplitude in mm", ylabel="$\\tan \\gamma_e$", ylim=(0.0, None),
-               title=f"equivalent conicity, {EDITION}")
+    values.set(xlabel="amplitude, mm", ylabel="$\\tan \\gamma_e$", ylim=(0.0, None),
+               title=f"Equivalent conicity, {EDITION}")
     for axes in legends:
         axes.legend()
-    return figure, ""
+    return figure, "" if functions is None else "lines end where a contact jumps"
 
 
 def draw_functions(radii, angles, functions):
-    """Rolling radius difference and contact angles over the shift."""
+    """Rolling radius difference and contact angles over the shift, broken where a contact jumps."""
     shift = functions.numbers("y_mm")
-    radii.plot(shift, functions.numbers("delta_r_mm"), color=RIGHT.colour, linewidth=RIGHT.width)
-    radii.set(ylabel="$\\Delta r$ in mm", title="rolling radius difference, right less left")
+    jumped = {side: style.jumps(functions.numbers(f"y_wheel_{side}_mm"))
+              for side in ("right", "left")}
+    either = [any(both) for both in zip(*jumped.values())]
+    radii.plot(*style.broken(either, shift, functions.numbers("delta_r_mm")), color=RIGHT.colour,
+               linewidth=RIGHT.width)
+    radii.set(ylabel="$\\Delta r$, mm", title="Rolling radius difference, right less left")
     for side, look in (("right", RIGHT), ("left", LEFT)):
-        angles.plot(shift, functions.numbers(f"gamma_{side}_rad"),
+        gamma = np.degrees(functions.numbers(f"gamma_{side}_rad"))
+        angles.plot(*style.broken(jumped[side], shift, gamma),
                     **(look.line_style | {"label": f"{side} wheel"}))
-    roll = functions.numbers("roll_rad")
+    roll = np.degrees(functions.numbers("roll_rad"))
     if any(roll):
-        angles.plot(shift, roll, color=style.GREY, label="roll")
-    angles.set(ylabel="angle in rad", title="contact angles, each in the frame of its side")
+        angles.plot(*style.broken(either, shift, roll), color=style.GREY, label="roll")
+    angles.set(ylabel="angle, degrees", title="Contact angles, each in the frame of its side")
     for axes in (radii, angles):
-        axes.set_xlabel("lateral shift $y$ in mm, to the right")
+        axes.set_xlabel("lateral shift $y$ to the right, mm")
 
 
 def method_name(first):

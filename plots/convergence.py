@@ -96,7 +96,7 @@ def set_axes(axes, strips, errors):
     axes.xaxis.set_major_locator(FixedLocator(ticks))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter("{x:g}")
-    axes.yaxis.set_major_formatter("{x:g}")
+    style.plain_numbers(axes.yaxis)
 
 
 if __name__ == "__main__":

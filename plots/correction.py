@@ -44,7 +44,7 @@ def main(table):
             panel = axes[row, k]
             colours = panel.pcolormesh(across, up, values, cmap="RdBu_r", vmin=-limit, vmax=limit,
                                        shading="gouraud")
-            worst = style.number(float(f"{np.abs(values).max():.2g}"))
+            worst = f"{np.abs(values).max():.1f}"
             panel.set(xscale="log", yscale="log",
                       title=("" if row else f"{name}\n") + f"{what}, at most {worst} %")
         figure.colorbar(colours, ax=axes[:, k], location="bottom", shrink=0.9, pad=0.02,

@@ -57,13 +57,13 @@ def pressure_figure(shift, strips, field, ellipse, contact, norm=None):
     figure = style.new_figure(11.0, 7.4)
     (left, right), (along_y, along_x) = figure.subplots(2, 2)
     mappable = panels.draw_strip_pressure(left, strips, field, top)
-    left.set_title(f"Strips, lateral shift {style.number(shift)} mm")
+    left.set_title(f"Strips: pressure, lateral shift {style.number(shift)} mm")
     if contact is None:
         panels.draw_outlines(right, strips, ellipse)
         right.set_title("Outlines")
     else:
         panels.draw_grid_pressure(right, contact, top)
-        right.set_title("CONTACT")
+        right.set_title("CONTACT: pressure")
     panels.share_limits(left, right)
     figure.colorbar(mappable, ax=[left, right], label="pressure, MPa", shrink=0.9, pad=0.015,
                     panchor=False)

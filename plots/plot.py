@@ -53,15 +53,17 @@ def draw_contact(file):
     space.set(xlim=(near.min(), near.max()),
               ylim=(min(least, 0.0), least + 4.0 * max(penetration, 1e-3)),
               xlabel="lateral $y$, mm", ylabel="distance, mm")
-    space.legend()
+    for each in strips.patches:
+        style.mark_width(space, each.y_left[0], each.y_right[-1])
+    style.legend_above(figure, space)
     space.set_title(words_of(table))
     if strips.patches:
         panels.draw_outlines(patch, strips)
         panels.draw_cut_along_y(pressure, strips)
         for axes in (patch, pressure):
             axes.set_xlim(space.get_xlim())
-    patch.set_title("contact patch")
-    pressure.set_title("pressure on its centre line")
+    patch.set_title("Contact patch")
+    pressure.set_title("Pressure on its centre line")
     return figure, [strips.stamp], ""
 
 
@@ -73,7 +75,8 @@ def words_of(table):
         value = table.numbers(column, missing=True)[0]
         if value == value:
             figures.append(f"${symbol}$ = {style.number(round(value))} {unit}")
-    return f"{table.words('status')[0]}: {', '.join(figures)}"
+    told = f"{table.words('status')[0]}: {', '.join(figures)}"
+    return told + " on the rail" if "F_x" in told else told
 
 
 def draw_sweep(file):

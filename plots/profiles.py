@@ -6,7 +6,7 @@ import sys
 import numpy as np
 
 from faststrip_plots import command, panels, picture, style
-from faststrip_plots.results import read_gap, read_profiles
+from faststrip_plots.results import read_gap, read_profiles, read_strips
 from faststrip_plots.tables import InputError
 
 RED = "#c03010"  # the contact point
@@ -16,13 +16,15 @@ def main(arguments=None):
     options = command.options(
         __doc__, arguments, {
             "profiles": (None, "columns body,y_mm,z_mm (default: out/profiles_shift_MM.csv)"),
-            "gap": (None, "also draw the gap in the frame of the contact: columns y_mm,h_mm")},
+            "gap": (None, "also draw the gap in the frame of the contact: columns y_mm,h_mm"),
+            "strips": (None, "also mark how wide the patches are: strips of the contact")},
         (None, "PNG", "picture to write (default: out/profiles_shift_MM.png)"),
         more={**command.shift("lateral shift of the wheel, for the title and the default files"),
               "top": dict(type=float, default=1.0, metavar="MM", help="largest distance shown")})
     path = options.profiles or command.shift_file("profiles", options.shift)
     profiles = read_profiles(path)
     gap = read_gap(options.gap) if options.gap else None
+    strips = read_strips(options.strips) if options.strips else None
 
     y, distance = panels.distance(profiles)
     if y[0] >= y[-1]:
@@ -47,13 +49,15 @@ def main(arguments=None):
         lower.plot(gap.y, gap.h, color="#f08519", linewidth=1.8, linestyle=(0, (5, 1.8)),
                    zorder=4, label="along the contact normal")
         near = np.concatenate([near, gap.y[gap.h <= options.top]])
-        lower.legend(loc="lower right", bbox_to_anchor=(1.0, 0.99), ncols=2, borderaxespad=0.2,
-                     handlelength=2.6, columnspacing=1.6)
+    for patch in strips.patches if strips else ():
+        style.mark_width(lower, patch.y_left[0], patch.y_right[-1])
+    if gap is not None or strips is not None:
+        style.legend_above(figure, lower)
     lower.set(xlim=(near.min() - 1.0, near.max() + 1.0), ylim=(0.0, options.top),
               xlabel="lateral distance from the contact point, mm",
               ylabel="undeformed distance, mm", title="Distance wheel to rail")
     output = options.output or command.shift_file("profiles", options.shift)[:-3] + "png"
-    picture.save(figure, output, [profiles.stamp, gap and gap.stamp])
+    picture.save(figure, output, [profiles.stamp, gap and gap.stamp, strips and strips.stamp])
 
 
 if __name__ == "__main__":

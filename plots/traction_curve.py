@@ -11,7 +11,9 @@ from faststrip_plots.tables import InputError
 
 RESULT = ("case", "series", "cksi", "N_N", "mu", "Fx_N")
 REFERENCE = ("series", "cksi", "Fx_N")
-PANELS = (("constant", "constant friction"), ("falling", "friction that falls with slip"))
+PANELS = (("constant", "Constant friction"),
+          ("falling", "Friction that falls with slip: CONTACT with a soft\nlayer between"
+           " the bodies, the others with one factor"))
 # Name, and whose look it has.
 METHODS = (("tang", "TANG", style.METHOD["norm", "tang"]),
            ("fastsim", "FASTSIM", style.METHOD["hertz", "fastsim"]),
@@ -46,12 +48,11 @@ def main(*tables):
             creepage, force = curve(table, series)
             axes.plot(100.0 * creepage, force / 1e3, **look)
         axes.set(xscale="log", xlim=(100.0 * LEAST_CREEPAGE, None))
-        axes.xaxis.set_major_formatter("{x:g}")
-        axes.set(xlabel="longitudinal creepage in %", ylim=(0.0, None), title=title)
-    panels[0].set_ylabel("$|F_x|$ in kN")
+        style.plain_numbers(axes.xaxis)
+        axes.set(xlabel="longitudinal creepage, %", ylim=(0.0, None), title=title)
+    panels[0].set_ylabel("$|F_x|$ on the rail, kN")
     style.legend_above(figure, *panels)
-    return (figure,
-            "where friction falls: CONTACT with a soft layer, the others with one factor")
+    return figure, ""
 
 
 if __name__ == "__main__":

@@ -30,10 +30,10 @@ def main(arguments=None):
     panels = figure.subplots(2, 2, sharex=True, sharey=True)
     fields = [Field(own), Field(exact)]
     largest = max(field.size.max() for field in fields)
-    for column, (field, name) in enumerate(zip(fields, ("FASTSTRIP", "CONTACT"))):
+    for column, (field, name) in enumerate(zip(fields, ("strips + FASTSTRIP", "CONTACT"))):
         mesh = draw_traction(panels[0][column], field, largest)
         draw_state(panels[1][column], field)
-        panels[0][column].set_title(f"{name}: traction")
+        panels[0][column].set_title(f"{name}: traction on the rail")
         panels[1][column].set_title(f"{name}: stick dark, slip light")
     for axes in panels[1]:
         axes.set_xlabel("$y$, mm")
@@ -41,7 +41,7 @@ def main(arguments=None):
         axes.set_ylabel("$x$ (rolling), mm")
     for axes in panels.flat:
         axes.set_aspect("equal")
-    figure.colorbar(mesh, ax=panels, label="traction on the rail, MPa", shrink=0.6)
+    figure.colorbar(mesh, ax=panels, label="size of the traction, MPa", shrink=0.6)
     picture.save(figure, output, [revision(own)],
                  f"lateral shift {style.number(options.shift)} mm")
 

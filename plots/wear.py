@@ -14,9 +14,9 @@ STRIPS = ("case", "side", "contact", "y_left_mm", "y_right_mm", "y_rail_mm", "y_
           "t_gamma_per_area_N_per_mm2", "wear_depth_mm_per_pass", "wear_depth_mm_per_km")
 PROFILES = ("body", "side", "y_mm", "z_mm", "y_profile_mm", "z_profile_mm")
 # Column, label, factor to its unit; the first that is there is drawn.
-QUANTITIES = (("wear_depth_mm_per_km", "wear depth in µm per km", 1e3),
-              ("wear_depth_mm_per_pass", "wear depth in nm per pass", 1e6),
-              ("t_gamma_per_area_N_per_mm2", "$T\\gamma/A$ in N/mm²", 1.0))
+QUANTITIES = (("wear_depth_mm_per_km", "wear depth, µm per km", 1e3),
+              ("wear_depth_mm_per_pass", "wear depth, nm per pass", 1e6),
+              ("t_gamma_per_area_N_per_mm2", "$T\\gamma/A$, N/mm²", 1.0))
 MOST_NAMES = 6  # states told apart by a legend
 
 
@@ -54,6 +54,8 @@ def main(strips, profiles, body):
     colours = matplotlib.colormaps[style.MAP](np.linspace(0.15, 1.0, len(cases)))
     figure = style.new_figure(max(6.4, 5.0 * len(sides)), 6.8)
     grid = figure.subplots(2, len(sides), squeeze=False, sharex="col", sharey="row")
+    for axes in grid[0]:
+        axes.set_aspect("equal")
     for column, name in enumerate(sides):
         upper, lower = grid[:, column]
         draw_profiles(upper, profiles, name, body)
@@ -67,9 +69,9 @@ def main(strips, profiles, body):
         if len(near):
             middle, half = 0.5 * (near.min() + near.max()), 0.5 * np.ptp(near) + 8.0
             lower.set_xlim(middle - half, middle + half)
-        lower.set_xlabel(f"$y$ on the profile of the {body} in mm, to the right")
+        lower.set_xlabel(f"$y$ on the profile of the {body}, mm")
     low, high = shown_heights(grid[0])
-    grid[0, 0].set(ylim=(high, low), ylabel="$z$ in mm, down")
+    grid[0, 0].set(ylim=(high, low), ylabel="$z$ down, mm")
     grid[1, 0].set(ylabel=label, ylim=(0.0, None))
     grid[1, 0].invert_yaxis()
     grid[0, -1].legend(loc="best")

@@ -17,10 +17,11 @@ LOOKS = {"right": style.NORMAL["strip"], "left": style.NORMAL["hertz"]}
 MARKERS = {"right": "o", "left": "s"}
 RED = "#c03010"  # contacts and their forces
 SMALLEST_VIEW = 12.0  # mm: half the width of a contact's own view
-PANELS = (("N_N", "$N$ in kN", 1e-3), ("Fx_N", "$F_x$ in kN", 1e-3), ("Fs_N", "$F_s$ in kN", 1e-3),
-          ("contact_angle_rad", "contact angle in rad", 1.0),
-          ("y_wheel_mm", "place on the wheel\n$y$ in mm", 1.0),
-          ("y_rail_mm", "place on the rail\n$y$ in mm", 1.0))
+PANELS = (("N_N", "$N$ on the rail, kN", 1e-3), ("Fx_N", "$F_x$ on the rail, kN", 1e-3),
+          ("Fs_N", "$F_s$ on the rail, kN", 1e-3),
+          ("contact_angle_rad", "contact angle, degrees", np.degrees(1.0)),
+          ("y_wheel_mm", "place on the wheel\n$y$, mm", 1.0),
+          ("y_rail_mm", "place on the rail\n$y$, mm", 1.0))
 
 
 def main(arguments=None):
@@ -38,7 +39,8 @@ def main(arguments=None):
     if options.states:
         states = read_table(options.states, ("case", "y_mm"))
         picture.save(draw_sweep(result, states), os.path.join(options.folder, "wheelset_sweep.png"),
-                     [revision(result), revision(states)])
+                     [revision(result), revision(states)],
+                     "lines end where a contact jumps")
 
 
 def draw_track(result, profiles):
@@ -51,7 +53,7 @@ def draw_track(result, profiles):
         raise InputError(f"no contact of the state of the profiles, {name}: {result.path}")
     numbers = {key: result.numbers(key, missing=True) for key in (
         "y_track_mm", "z_track_mm", "contact_angle_rad", "N_N", "Fs_N", "Fx_N", "radius_mm",
-        "Fy_track_N", "Fz_track_N")}
+        "Fy_track_N", "Fz_track_N", "ymin_mm", "ymax_mm")}
     rows.sort(key=lambda row: numbers["y_track_mm"][row])
     largest = max(numbers["N_N"][row] for row in rows)
 
@@ -68,9 +70,8 @@ def draw_track(result, profiles):
     for column, row in enumerate(rows):
         axes = figure.add_subplot(grid[1, column])
         draw_contact(axes, result, outlines, row, numbers, largest)
-    whole.set(xlabel="$y$ in the track in mm, to the right", ylabel="$z$ in mm, down")
-    return figure, (f"arrows: {style.number(largest * 1e-3 // 1)} kN at the longest"
-                    if largest > 1e3 else "")
+    whole.set(xlabel="$y$ in the track to the right, mm", ylabel="$z$ down, mm")
+    return figure, f"arrows: forces on the rails; the largest $N$ is {largest * 1e-3:.1f} kN"
 
 
 def read_outlines(profiles):
@@ -113,21 +114,26 @@ def draw_contact(axes, result, outlines, row, numbers, largest):
     axes.plot(*wheel.T, color="#222222", linewidth=1.6, label="wheel")
     axes.plot(*rail.T, color=style.GREY, linewidth=1.6, label="rail")
     turn = numbers["contact_angle_rad"][row]
-    normal = 0.8 * half * np.array([np.sin(turn), -np.cos(turn)])
+    normal = 0.55 * half * np.array([np.sin(turn), -np.cos(turn)])
     axes.plot([y - normal[0], y + normal[0]], [z - normal[1], z + normal[1]], color=style.GREY,
               linewidth=1.0, linestyle=(0, (6, 2, 1.5, 2)), label="normal")
+    ends = np.array([numbers["ymin_mm"][row], numbers["ymax_mm"][row]])
+    axes.plot(y + ends * np.cos(turn), z + ends * np.sin(turn), color=style.PATCH, linewidth=5.0,
+              solid_capstyle="butt", zorder=4)
     arrow(axes, numbers, row, 0.75 * half / largest)
     axes.plot(y, z, marker="o", markersize=6, markerfacecolor="white", markeredgecolor=RED,
               markeredgewidth=1.6, zorder=6)
     axes.set(xlim=(y - half, y + half), ylim=(z + half, z - half), aspect="equal",
-             xlabel="$y$ in mm", title=f"{side}, contact {result.words('contact')[row]}")
-    kilo = 1e-3
-    axes.text(0.03, 0.03, f"$N$ {style.number(round(numbers['N_N'][row] * kilo, 1))} kN\n"
-              f"$F_x$ {style.number(round(numbers['Fx_N'][row] * kilo, 1))} kN\n"
-              f"$F_s$ {style.number(round(numbers['Fs_N'][row] * kilo, 1))} kN\n"
-              f"angle {style.number(round(turn, 3))} rad", transform=axes.transAxes,
-              va="bottom", fontsize=style.SMALL,
-              bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 2.0})
+             xlabel="$y$, mm", ylabel="$z$, mm",
+             title=f"{side}, contact {result.words('contact')[row]}")
+    told = ["on the rail:"]
+    told += [f"${symbol}$ {numbers[name][row] * 1e-3:.1f} kN"
+            for symbol, name in (("N", "N_N"), ("F_x", "Fx_N"), ("F_s", "Fs_N"))]
+    told += [f"angle {np.degrees(turn):.1f}°", f"patch {np.ptp(ends):.1f} mm wide"]
+    # In the body of the wheel, away from its flange's outline.
+    where, align = (0.97, "right") if side == "left" else (0.03, "left")
+    axes.text(where, 0.98, "\n".join(told).replace("-", "\N{MINUS SIGN}"), ha=align, va="top",
+              transform=axes.transAxes, fontsize=style.SMALL)
 
 
 def closed(line, height):
@@ -146,7 +152,7 @@ def arrow(axes, numbers, row, scale):
 
 
 def draw_sweep(result, states):
-    """Forces and places over y; a gap where there is no contact."""
+    """Forces and places over y; a gap where there is no contact, and where it jumps."""
     shifts = dict(zip(states.words("case"), states.numbers("y_mm", missing=True)))
     unknown = set(result.words("case")) - set(shifts)
     if unknown:
@@ -155,6 +161,8 @@ def draw_sweep(result, states):
     y = np.array([shifts[case] for case in result.words("case")])
     side, contact = np.array(result.words("side")), np.array(result.words("contact"))
     limited = np.array(result.words("status")) != "ok"
+    ends = np.array([result.numbers("y_wheel_mm", missing=True)
+                     + result.numbers(name, missing=True) for name in ("ymin_mm", "ymax_mm")])
     figure = style.new_figure(9.6, 8.4)
     grid = figure.subplots(3, 2, sharex=True)
     for axes, (name, label, scale) in zip(grid.T.flat, PANELS):
@@ -163,8 +171,9 @@ def draw_sweep(result, states):
         for which, look in LOOKS.items():
             for number in sorted(set(contact[side == which]) - {"0"}):
                 chosen = (side == which) & (contact == number)
-                known = dict(zip(y[chosen], values[chosen]))
-                axes.plot(order, [known.get(at, np.nan) for at in order], color=look.colour,
+                known = dict(zip(y[chosen], zip(values[chosen], *ends[:, chosen])))
+                line, *patch = np.transpose([known.get(at, [np.nan] * 3) for at in order])
+                axes.plot(*style.broken(apart(*patch), order, line), color=look.colour,
                           marker=MARKERS[which], markersize=3.6, linewidth=1.4,
                           linestyle="-" if number == "1" else ":",
                           markerfacecolor=look.colour if number == "1" else "white",
@@ -172,17 +181,23 @@ def draw_sweep(result, states):
         marked = limited & np.isfinite(values)
         if np.any(marked):
             axes.plot(y[marked], values[marked], linestyle="none", marker="o", markersize=9,
-                      markerfacecolor="none", markeredgecolor=RED, label="status not ok")
+                      markerfacecolor="none", markeredgecolor=RED, label="status other than ok")
         axes.set_ylabel(label)
     failed = sorted(set(y[(contact == "0") & limited]))
     for axes in grid.flat:
         for at in failed:
             axes.axvline(at, color=RED, linewidth=0.8, linestyle=":", label="no result")
     for axes in grid[-1]:
-        axes.set_xlabel("lateral displacement $y$ in mm, to the right")
+        axes.set_xlabel("lateral displacement $y$ to the right, mm")
     figure.align_ylabels(grid)
     style.legend_above(figure, *grid.flat)
     return figure
+
+
+def apart(low, high):
+    """Has a patch no place on the wheel in common with the one of the state before? Then the
+    contact has jumped."""
+    return (low[1:] > high[:-1]) | (high[1:] < low[:-1])
 
 
 if __name__ == "__main__":

@@ -117,7 +117,7 @@ faststrip contact example/s1002_uic60.nml --shift {shift} -o out/contact_shift_{
     --fields out/fields_shift_{shift}.csv
 faststrip contact example/s1002_uic60.nml --shift {shift} --normal norm --tangential tang \
     -o /dev/null --fields out/norm_shift_{shift}.csv
-python plots/profiles.py --shift {shift}
+python plots/profiles.py --shift {shift} --strips out/strips_shift_{shift}.csv
 python plots/patches.py --shift {shift} --norm out/norm_shift_{shift}.csv
 """
 DEMO_END = """

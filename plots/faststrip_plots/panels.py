@@ -41,14 +41,14 @@ def draw_value(axes, sweep, reference, name):
     """A quantity against the shift: methods as lines, CONTACT as symbols."""
     quantity = QUANTITIES[name]
     for method, look in sweep_lines(sweep, name):
-        _line(axes, method.yw, method.values[quantity.column] * quantity.scale, look)
+        _line(axes, sweep, method.yw, method.values[quantity.column] * quantity.scale, look)
     if reference is not None:
         axes.plot(reference.yw, reference.values[name] * quantity.scale, zorder=4, **style.CONTACT)
     if name in NORMAL_QUANTITIES:
         axes.set_ylim(bottom=0.0)
     else:
         axes.axhline(0.0, color="#444444", linewidth=0.8, zorder=1)
-    axes.set(ylabel=f"{quantity.symbol}, {quantity.unit}", title=quantity.name.capitalize())
+    axes.set(ylabel=f"{quantity.symbol}, {quantity.unit}", title=quantity.title)
 
 
 def draw_ratio(axes, sweep, reference, name, mu, least=NEAR_ZERO):
@@ -68,7 +68,7 @@ def draw_ratio(axes, sweep, reference, name, mu, least=NEAR_ZERO):
         enough = np.abs(expected) >= least * base[pairs.reference_rows]
         rows = pairs.rows[enough]
         ratio[rows] = method.values[quantity.column][rows] / expected[enough]
-        _line(axes, method.yw, ratio, look)
+        _line(axes, sweep, method.yw, ratio, look)
         for limit, marker, beyond in ((high, "^", ratio > high), (low, "v", ratio < low)):
             if beyond.any():
                 axes.plot(
@@ -88,17 +88,23 @@ def draw_difference(axes, sweep, reference, name, mu):
         pairs = compare(sweep, method, reference)
         error = np.full(len(method.yw), np.nan)
         error[pairs.rows] = percent_errors(pairs, reference, name, mu)
-        _line(axes, method.yw, error, look)
+        _line(axes, sweep, method.yw, error, look)
     axes.axhline(0.0, color="#444444", linewidth=0.8, zorder=1)
     base = QUANTITIES[name].base
     unit = f"% of {BASES[base]}" if base in BASES else "%"
     axes.set(ylabel=f"{QUANTITIES[name].symbol} less CONTACT's, {unit}",
-             title=QUANTITIES[name].name.capitalize() + ": difference")
+             title=QUANTITIES[name].title + ": difference")
 
 
-def _line(axes, x, y, look):
+def jump_note(sweep) -> str:
+    """What a picture of a sweep says of its lines."""
+    return "lines end where the contact point jumps" if sweep.jumps() else ""
+
+
+def _line(axes, sweep, x, y, look):
+    jumped = [any(low < there < high for there in sweep.jumps()) for low, high in zip(x, x[1:])]
     axes.plot(
-        x, y, **look.line_style,
+        *style.broken(jumped, x, y), **look.line_style,
         marker="o", markersize=2.6, zorder=2.8 if look.width > 3.0 else 3,
     )
 

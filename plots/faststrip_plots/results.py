@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import style
 from .tables import InputError, Table, read_table
 
 SHIFT_TOLERANCE = 1e-6  # mm; two shifts closer than this are the same case
@@ -29,6 +30,11 @@ class Quantity:
     unit: str
     scale: float  # from the unit of the column to the unit shown
     base: str  # what an error is a percentage of: the reference value, mu N or mu N c
+
+    @property
+    def title(self) -> str:
+        """Its name, and what a force acts on."""
+        return self.name.capitalize() + (" on the rail" if self.base.startswith("mu") else "")
 
 
 QUANTITIES = {
@@ -98,6 +104,17 @@ class Sweep:
             if best is None or method.ok.sum() > best.ok.sum():
                 found[method.normal] = method
         return list(found.values())
+
+    def jumps(self) -> list[float]:
+        """Shifts amid which the contact point jumps: both ends of the patch by strips, which are
+        told from that point, move as one."""
+        for method in self.methods:
+            if method.normal == "strip":
+                low, high = (method.values[name] for name in ("ymin_mm", "ymax_mm"))
+                return [0.5 * (one + other) for one, other, left, right in zip(
+                    method.yw, method.yw[1:], style.jumps(low), style.jumps(high))
+                    if left and right]
+        return []
 
     @property
     def by_key(self) -> dict:

@@ -10,7 +10,7 @@ import sys
 import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import NullFormatter, StrMethodFormatter
 
 from .tables import InputError
 
@@ -28,7 +28,7 @@ _style = _package_style()
 FONT, SMALL, DPI, MAP, GREY = _style.FONT, _style.SMALL, _style.DPI, _style.MAP, _style.GREY
 PALE, NORMAL, METHOD, CONTACT = _style.PALE, _style.NORMAL, _style.METHOD, _style.CONTACT
 Look, normal_look, method_look = _style.Look, _style.normal_look, _style.method_look
-number = _style.number
+number, jumps, broken, PATCH = _style.number, _style.jumps, _style.broken, _style.PATCH
 
 
 def luminance(colour: str) -> float:
@@ -71,8 +71,29 @@ def log_axes(axes) -> None:
     """Logarithmic both, with plain numbers."""
     axes.set(xscale="log", yscale="log")
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter("{x:g}")
+        plain_numbers(axis)
         axis.set_minor_formatter(NullFormatter())
+
+
+class _Plain(StrMethodFormatter):
+    """Numbers without exponents."""
+
+    def __call__(self, x, pos=None):
+        return super().__call__(x, pos).rstrip("0").rstrip(".")
+
+
+def plain_numbers(axis) -> None:
+    """Let a logarithmic axis show all its numbers in one way, 0.00001 beside 100."""
+    axis.set_major_formatter(_Plain("{x:.12f}"))
+
+
+def mark_width(axes, left: float, right: float) -> None:
+    """Mark how wide a contact patch is, along the lateral axis."""
+    known = "width of the patch" in axes.get_legend_handles_labels()[1]
+    axes.axvspan(left, right, facecolor=PATCH, alpha=0.25, linewidth=0, zorder=0.5,
+                 label=None if known else "width of the patch")
+    axes.text(0.5 * (left + right), 0.96, f"{right - left:.1f} mm", rotation=90.0, ha="center",
+              va="top", fontsize=SMALL, transform=axes.get_xaxis_transform())
 
 
 def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> None:

@@ -68,7 +68,7 @@ class ContactFunctions(Table):
         return conicity(self.y, self.delta_r, amplitudes)
 
     def plot(self, axes: Any = None) -> Any:
-        """Draw the rolling radius difference over the shift.
+        """Draw the rolling radius difference over the shift, broken where a contact jumps.
 
         Parameters
         ----------
@@ -80,8 +80,10 @@ class ContactFunctions(Table):
         matplotlib.axes.Axes
         """
         from ._plot import plot_lines
+        from ._style import broken, jumps
 
-        return plot_lines(axes, self.y, {"": self.delta_r}, "lateral shift $y$, mm",
+        y, delta_r = broken(jumps(self.y_wheel_right, self.y_wheel_left), self.y, self.delta_r)
+        return plot_lines(axes, y, {"": delta_r}, "lateral shift $y$, mm",
                           "rolling radius difference, mm")
 
 

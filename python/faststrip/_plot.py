@@ -5,7 +5,18 @@ from __future__ import annotations
 import contextlib
 import math
 import pathlib
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Dict,
+    Iterator,
+    List,
+    Mapping,
+    Optional,
+    Sequence,
+    Tuple,
+    Union,
+)
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +30,7 @@ if TYPE_CHECKING:
     from ._results import Elements, Strips
 
 Array = npt.NDArray[np.float64]
+Numbers = Union[Array, Sequence[float]]
 ADHESION = 1
 ARROWS, ARROWS_ALONG = 13, 8  # rows that have some, and how many each, at most
 ALONG = 48  # pieces of a strip along x, where its pressure is drawn
@@ -92,7 +104,7 @@ def plot_elements(elements: Elements, axes: Any = None) -> Any:
     return axes
 
 
-def plot_lines(axes: Any, x: Array, lines: Mapping[str, Array], x_label: str,
+def plot_lines(axes: Any, x: Numbers, lines: Mapping[str, Numbers], x_label: str,
                y_label: str) -> Any:
     """Lines over x, told apart also in grey; the axes are given back."""
     looks = list(style.METHOD.values())
@@ -185,7 +197,7 @@ def draw_tractions(axes: Any, elements: Elements, strips: Optional[Strips] = Non
             width=4.5e-3, headwidth=4.0, headlength=4.5)
         axes.quiverkey(arrows, 0.86, 1.03, largest, f"{largest:.0f} MPa", labelpos="W",
                        coordinates="axes")
-    _patch_axes(axes, "Tractions")
+    _patch_axes(axes, "Tractions on the rail")
     axes.set_xlabel(f"{Y_LABEL}; {'dark: adhesion' if adhesion.any() else 'all slides'}")
 
 

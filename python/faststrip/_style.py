@@ -5,8 +5,9 @@ The pictures of ``plots/`` take it from this file, so it asks for nothing but Py
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, Iterable, List, Tuple
 
 FONT = 10
 SMALL = 9
@@ -19,6 +20,10 @@ BODY = "#dcdcdc"  # the body of the rail
 WHEEL = "#0b3c78"
 STICK = "#b9cde5"  # elements in adhesion
 SLIP = "#f4efe6"  # elements that slide
+PATCH = "#c9a227"  # how wide a contact is
+# mm between neighbouring points, beyond which a rigid contact has jumped: less than from tread to
+# flange, and more than a shift by 0.1 mm moves one otherwise
+JUMP = 3.0
 
 
 @dataclass(frozen=True)
@@ -103,6 +108,21 @@ def method_look(normal: str, tangential: str) -> Look:
         return METHOD[normal, tangential]
     colour, line = _OTHERS[sum((normal + tangential).encode()) % len(_OTHERS)]
     return Look(f"{normal} + {tangential}", colour, line)
+
+
+def jumps(*places: Any) -> List[bool]:
+    """Has a contact jumped before each point but the first, in any of its places, mm?"""
+    return [any(abs(after - before) > JUMP for before, after in pairs)
+            for pairs in zip(*(zip(place[:-1], place[1:]) for place in places))]
+
+
+def broken(jumped: Iterable[bool], *columns: Any) -> List[List[float]]:
+    """Columns of a line with a hole at every jump, so that nothing is drawn across it."""
+    found = [[column[0]] for column in columns]
+    for k, hole in enumerate(jumped, 1):
+        for column, line in zip(columns, found):
+            line.extend([math.nan, column[k]] if hole else [column[k]])
+    return found
 
 
 def number(value: float) -> str:

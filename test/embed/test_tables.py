@@ -174,7 +174,7 @@ class Pictures(HostTest):
             figure = contact.plot()
             panels = [axes for axes in figure.axes if axes.get_title(loc="left")]
             self.assertEqual([axes.get_title(loc="left") for axes in panels],
-                             ["Patch and pressure", "Pressure", "Tractions"])
+                             ["Patch and pressure", "Pressure", "Tractions on the rail"])
             strips, elements = contact.strips(), contact.elements()
             low, high = panels[0].dataLim.intervalx
             self.assertAlmostEqual(low, strips.y_left.min(), places=9)
@@ -207,8 +207,15 @@ class Pictures(HostTest):
         functions = self.faststrip.contact_functions("s1002", "60e1", np.linspace(-5.0, 5.0, 21))
         conicity = self.faststrip.conicity(functions.y, functions.delta_r, [1.0, 2.0, 3.0])
         profile = self.faststrip.Profile(gap.y, gap.h, "wheel", "folder/worn.whl")
-        for found, lines in ((gap, [(gap.y, gap.h)]), (functions, [(functions.y,
-                                                                    functions.delta_r)]),
+        line, = functions.plot().lines
+        whole = np.isfinite(line.get_ydata())
+        np.testing.assert_array_equal(line.get_xdata()[whole], functions.y)
+        np.testing.assert_array_equal(line.get_ydata()[whole], functions.delta_r)
+        places = functions.y_wheel_right, functions.y_wheel_left
+        jumps = np.any([abs(np.diff(place)) > 3.0 for place in places], axis=0)
+        self.assertEqual(np.sum(~whole), np.sum(jumps))
+        self.assertGreater(np.sum(jumps), 0)
+        for found, lines in ((gap, [(gap.y, gap.h)]),
                              (conicity, [(conicity.amplitude, conicity.tan_gamma_e),
                                          (conicity.amplitude, conicity.regression)]),
                              (profile, [(profile.y, profile.z)])):

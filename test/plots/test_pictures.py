@@ -32,21 +32,22 @@ FILES = {
     "reference/contact/fields/shift_0_B.csv": grid_text(),
     "gap.csv": gap_text(),
     "out/functions.csv": "# faststrip 0.1.0 rev abc\n# compiler\ny_mm,delta_r_mm,gamma_right_rad,"
-                         "gamma_left_rad,roll_rad\n"
-                         + "".join(f"{y},{0.1 * y},{-0.05 - 0.01 * y},{-0.05 + 0.01 * y},{roll}\n"
+                         "gamma_left_rad,roll_rad,y_wheel_right_mm,y_wheel_left_mm\n"
+                         + "".join(f"{y},{0.1 * y},{-0.05 - 0.01 * y},{-0.05 + 0.01 * y},{roll},"
+                                   f"{-20.0 * (y > 0)},{y}\n"
                                    for y, roll in ((-2, 1e-3), (0, 0), (2, -1e-3))),
     "out/conicity.csv": "# faststrip 0.1.0 rev abc\namplitude_mm,tan_gamma_e,regression,method\n"
                         "1,0.05,0.04,klingel\n2,,,klingel\n3,0.06,0.07,klingel\n",
 }
 WHEELSET = ("# faststrip 0.1.0 rev abc\n# compiler\n"
             "case,side,contact,status,y_track_mm,z_track_mm,contact_angle_rad,N_N,Fx_N,Fs_N,"
-            "radius_mm,Fy_track_N,Fz_track_N,y_wheel_mm,y_rail_mm\n"
-            "1,left,1,ok,-750,0,0.05,5e4,1e3,2e3,460,1e3,5e4,5,3\n"
-            "1,right,1,under_resolved,750,0,-0.05,5e4,1e3,2e3,460,-1e3,5e4,-5,-3\n"
-            "2,left,1,ok,-751,0,0.06,4e4,1e3,2e3,460,1e3,4e4,6,4\n"
-            "2,right,1,ok,749,0,-0.06,4e4,1e3,2e3,460,-1e3,4e4,-6,-4\n"
-            "2,right,2,ok,720,9,-1.1,1e4,1e3,2e3,460,-1e3,1e4,-36,-30\n"
-            "3,both,0,no_contact,,,,,,,,,,,\n")
+            "radius_mm,Fy_track_N,Fz_track_N,y_wheel_mm,y_rail_mm,ymin_mm,ymax_mm\n"
+            "1,left,1,ok,-750,0,0.05,5e4,1e3,2e3,460,1e3,5e4,5,3,-6,5\n"
+            "1,right,1,under_resolved,750,0,-0.05,5e4,1e3,2e3,460,-1e3,5e4,-5,-3,-5,6\n"
+            "2,left,1,ok,-751,0,0.06,4e4,1e3,2e3,460,1e3,4e4,6,4,-6,5\n"
+            "2,right,1,ok,749,0,-0.06,4e4,1e3,2e3,460,-1e3,4e4,-6,-4,-5,6\n"
+            "2,right,2,ok,720,9,-1.1,1e4,1e3,2e3,460,-1e3,1e4,-36,-30,-1,1\n"
+            "3,both,0,no_contact,,,,,,,,,,,,,\n")
 WHEELSET_STATES = "case,y_mm\n1,0\n2,1\n3,2\n"
 WHEELSET_PROFILES = "case,body,side,y_mm,z_mm,y_profile_mm,z_profile_mm\n" + "".join(
     f"2,{body},{side},{sign * (750 + y)},{bend * y * y},{sign * y},{bend * y * y}\n"
