@@ -7,6 +7,7 @@ import re
 import unittest
 
 import numpy as np
+
 from plot_samples import (
     PLOTS,
     Folder,
