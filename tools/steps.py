@@ -9,28 +9,28 @@
   bare [TEXT]   as root, where debootstrap can be had: demo and test, or test TEXT, in a bare Debian
                 12, as root and as a user without rights; in build/bare/, about an hour
   mutants [ROOM] [--only ID] [--jobs N] [--quick]
-                change one thing at a time in a copy and say which changes no test notices;
-                --quick asks the tests of the room only
+                change one thing at a time in a copy and list the changes that no test notices;
+                --quick runs the tests of the room only
   hostile [N] [--seed S]
                 build, then try 500 (or N) hostile inputs: each must end with one clear line
   fuzz [CASES]  build, then solve 100000 (or CASES) random contacts and check the answers
-  corrections   build, then solve 47400 random contacts by NORM and TANG, fit what FASTSTRIP
-                misses of their forces, and write it into the sources; about two hours; what is
-                there in out/force_data/ is not made again
+  corrections   build, then solve 47400 random contacts by NORM and TANG, fit the error of
+                FASTSTRIP's forces, and write it into the sources; about two hours; contacts that
+                are in out/force_data/ are not solved again
   demo          build, then compute and draw the example; results in out/
   strips        build, then time the strip solver and draw its convergence; in out/strips/
   speed [--quick] [-o FILE]
-                build, then time everything beside FASTSIM and CONTACT, with the tail; table and
-                picture in out/ (--quick: half a minute)
+                build, then time everything beside FASTSIM and CONTACT, median to largest; table
+                and picture in out/ (--quick: half a minute)
   scale [--quick] [-o FILE]
                 build, then measure batch on many contacts: rates, threads, parts, memory, CSV and
                 NetCDF; table and picture in out/; some minutes and 20 GB of disk (--quick: half a
                 minute)
-  net [--keep]  build, install below build/, then run all methods, examples and hosts and say which
-                output is another one than was kept; with --keep keep today's; in out/net/
+  net [--keep]  build, install below build/, then run all methods, examples and hosts and list
+                the outputs that differ from those kept; --keep keeps the new ones; in out/net/
   lookup [--quick]
-                build, install below build/, then make a table of creep forces and say what it
-                is worth: errors, size, time, look-ups a second; in out/lookup/
+                build, install below build/, then make a table of creep forces and report its
+                errors, size, time, look-ups per second; in out/lookup/
   vehicle [--quick]
                 build, install below build/, then run a bogie through a curve and up to its limit
                 cycle with strips, Hertz and a table; pictures and figures in out/vehicle/; some
@@ -43,13 +43,13 @@
                 move of a slider to the picture; table in out/; some minutes
   extremes      build, then measure accuracy and steadiness at the extremes, also in single
                 precision and in all rounding modes; in out/extremes/
-  forces        build, then judge, time and draw the tangential methods; in out/forces/
-  lists         write what repeats the lists of methods, settings, columns, arguments and tuned
-                numbers in sources and documents; builds in between
+  forces        build, then compare, time and draw the tangential methods; in out/forces/
+  lists         write the sources and documents that follow from the lists of methods, settings,
+                columns, arguments and tuned numbers; builds in between
   scenes        the first of the stored results: forces of 240 contacts; in reference/scenes/
-  stored [NAME] build, then make the stored results anew, all or one (listed in
+  stored [NAME] build, then make the stored results again, all or one (listed in
                 reference/stored.csv); everything has to be committed before, some minutes
-  report [...]  build, then measure, judge and draw everything; in out/report/ (--quick: less)
+  report [...]  build, then measure, compare and draw everything; in out/report/ (--quick: less)
   install --prefix FOLDER
                 build, then install program, library, modules, header, man page and completion
                 for shells there

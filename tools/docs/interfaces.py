@@ -36,6 +36,8 @@ METHODS = ("``NORMAL`` and ``TANGENTIAL`` have the names of the command line's `
            "<../docs/usage.html#methods>`__.\n")
 PYTHON = (
     ("contact", "One contact", "Contact Result Step Strips Elements Material Friction"),
+    ("pair", "A wheel on a rail",
+     "contact ContactResult sweep SweepResult creep_map CreepMap"),
     ("many", "Many contacts", "solve_many ManyResult"),
     ("profiles", "Profiles and gaps", "Profile Gap profile_gap draw_profile plot_profiles"),
     ("wheelset", "Wheelsets", "Wheelset RailState WheelsetResult WheelContact"),
