@@ -58,7 +58,8 @@ for (const list of Object.values(seen)) list.length = 0
 const start = performance.now()
 Bokeh.documents[0].get_model_by_name(name).value = value
 const end = () => {
-  const until = seen.arrived[1] ?? Infinity
+  // What arrives before anything is drawn is a part of the same change.
+  const until = seen.arrived.find((one) => one > seen.drawn[0]?.[0]) ?? Infinity
   const last = seen.drawn.findLast(([_, drawn]) => drawn < until)?.[1]
   const known = last != null && seen.arrived.length > 0 && seen.frames.some((one) => one > last)
   if (!known || performance.now() - last < still) { setTimeout(end, 20); return }
