@@ -32,8 +32,8 @@ documents have it.
 - `?`: unknown, the public documents that were found do not state it. Manuals of commercial programs
   are for their customers, so most of their cells say nothing about the programs.
 
-What a document describes completely counts as lacking where it is not mentioned: CONTACT's user
-guide, and the papers of the published methods, which are no programs.
+CONTACT's user guide and the papers on KP and STRIPES are taken as complete: a feature that they do
+not mention counts as `lacks`. KP and STRIPES are methods, not programs.
 
 ## Documents
 
