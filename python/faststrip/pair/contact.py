@@ -56,7 +56,13 @@ class ContactResult(Result, Placed):
         The same; empty where a method has none.
     limitations : tuple of str
         As of a `Result`, as are the others.
-    status, word, target_is_met, steps
+    status : int
+        As well.
+    word : str
+        As well.
+    target_is_met : bool, or None
+        As well.
+    steps : tuple of Step
         As well.
     derivatives : ndarray of float, or None
         There are none: take a `Contact`.

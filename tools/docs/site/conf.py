@@ -8,6 +8,7 @@ from docutils.nodes import SkipNode
 from latex2mathml.converter import convert
 from pygments.lexers.fortran import FortranFixedLexer
 from pygments.lexers.special import TextLexer
+from sphinx.addnodes import pending_xref
 
 project = "faststrip"
 author = copyright = "the faststrip developers"
@@ -51,6 +52,13 @@ def no_signature(app, what, name, obj, *_):
     return ("", None) if is_result else None
 
 
+def types_alone(app, doctree):
+    """Words of a type that are no classes of the package, as `shape`, are no links."""
+    for link in list(doctree.findall(pending_xref)):
+        if link.get("reftype") == "class" and link["reftarget"] not in faststrip.__all__:
+            link.replace_self(link.children)
+
+
 def search_scripts(app, page, template, context, doctree):
     if page == "search":
         for name in ("words.js", "search.js"):
@@ -71,4 +79,5 @@ def setup(app):
     app.add_lexer("f77", FortranFixedLexer)
     app.connect("autodoc-process-docstring", one_by_one, priority=400)
     app.connect("autodoc-process-signature", no_signature)
+    app.connect("doctree-read", types_alone)
     app.connect("html-page-context", search_scripts)
