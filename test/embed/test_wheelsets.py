@@ -308,6 +308,21 @@ class Interfaces(HostTest):
                 self.assertAlmostEqual(share, 1.0, delta=0.03)
         one, = contacts(0.0, 0.0, load=8e4).contacts
         self.assertEqual(one.est_err_load, 0.0)
+
+        def of_axle(raised, **wanted):
+            wheels = [package.Profile(y, y * y / 600.0 - 2e-3 * (y - 5.0)**2 + one * np.tanh(y))
+                      for one in (raised, -raised)]
+            wheelset = package.Wheelset(
+                wheels[0], package.Profile(y, y * y / 600.0), wheel_left=wheels[1],
+                rail_distance=1500.0, inclination=0.0, strips_per_patch=25)
+            return wheelset.solve(axle_load=1e5, **wanted)
+
+        # With a given roll both wheels share the axle load, with a free one each has its own.
+        before = of_axle(0.0, roll=0.0)
+        self.assertEqual([one.side for one in before.contacts], ["right", "left"])
+        for share in moved(before, of_axle(5e-4, roll=0.0)):
+            self.assertAlmostEqual(share, 1.0, delta=0.03)
+        self.assertEqual([one.est_err_load for one in of_axle(0.0).contacts], [0.0, 0.0])
         # The program's column, of what its users say of their profiles.
         for accuracy in (0.5, 1.0):
             self.write("two.nml", "&wheel\n  profile = 's1002'\n/\n&rail\n  profile = '60e1'\n"

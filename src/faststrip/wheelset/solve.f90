@@ -442,6 +442,14 @@ contains
         type(status_t) :: jump
         integer :: side, i
 
+        if (demand%kind == demand_axle_load .and. .not. demand%roll_is_free) then
+            call estimate_loads(model, .true., result%wheel)
+        else
+            do side = side_right, side_left
+                call estimate_loads(model, demand%kind /= demand_position, &
+                                    result%wheel(side:side))
+            end do
+        end if
         ! A force that jumped over the load concerns every contact.
         jump = status
         do side = side_right, side_left
@@ -449,7 +457,6 @@ contains
             associate (wheel => result%wheel(side))
                 if (model%case%estimate .and. wheel%solutions > 0) &
                     call estimate_wheel(model, workspace%wheel(side), wheel)
-                call estimate_loads(model, demand%kind /= demand_position, wheel)
                 if (.not. is_error(wheel%status)) call name_pressures(model%case%yield, wheel)
                 wheel%roll = state%roll
                 if (side == side_left) wheel%roll = -wheel%roll

@@ -23,7 +23,7 @@ module faststrip_wheelset_wheel
                                                  rail_velocity, &
                                                  cross
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
-                                        wheel_workspace_t, most_contacts
+                                        wheel_workspace_t
     use faststrip_wheelset_approach, only: hertz_power
     implicit none
     private
@@ -185,41 +185,51 @@ contains
         end do
     end subroutine estimate_wheel
 
-    !> What a wheel's profiles, as exact as the model says, leave open of each normal force.
+    !> What profiles, as exact as the model says, leave open of each normal force.
     !>
     !> A contact whose gap is wrong by eps along its normal has an approach that is wrong by
     !> c dz - eps, c the cosine of its angle, and N grows by k = 3/2 N/penetration with it (Hertz).
-    !> At a given load the wheel moves by dz, so that the sum of the vertical forces stays: one
-    !> contact is as exact as its load, two share the error.
-    pure subroutine estimate_loads(model, load_is_given, wheel)
-        type(wheelset_model_t), intent(in) :: model  !! its accuracy of profiles
-        logical, intent(in) :: load_is_given         !! or the height?
-        type(wheel_result_t), intent(inout) :: wheel !! solved
+    !> Where a load is given the wheels that carry it move by dz, so that the sum of the vertical
+    !> forces stays: one contact is as exact as its load, two share the error.
+    pure subroutine estimate_loads(model, load_is_given, wheels)
+        type(wheelset_model_t), intent(in) :: model       !! its accuracy of profiles
+        logical, intent(in) :: load_is_given              !! of all these wheels, or their height?
+        type(wheel_result_t), intent(inout) :: wheels(:)  !! solved
 
-        real(wp), dimension(most_contacts) :: stiffness, vertical, cosine
-        real(wp) :: total, rest, moved
-        integer :: i, n
+        real(wp) :: slope, total, absolute
+        integer :: side, i
 
-        n = wheel%n
-        do i = 1, n
-            associate (normal => wheel%contact(i)%figures%normal)
-                wheel%contact(i)%est_err_load = 0.0_wp
-                if (.not. (normal%penetration > 0.0_wp .and. normal%load > 0.0_wp)) return
-                stiffness(i) = hertz_power/normal%penetration
-                cosine(i) = cos(wheel%contact(i)%angle)
-                vertical(i) = stiffness(i)*wheel%contact(i)%force(3)
-            end associate
+        total = 0.0_wp
+        absolute = 0.0_wp
+        do side = 1, size(wheels)
+            do i = 1, wheels(side)%n
+                slope = load_slope(wheels(side)%contact(i))*wheels(side)%contact(i)%force(3)
+                total = total + slope*cos(wheels(side)%contact(i)%angle)
+                absolute = absolute + abs(slope)
+            end do
         end do
-        total = sum(vertical(:n)*cosine(:n))
-        do i = 1, n
-            moved = 1.0_wp
-            if (load_is_given .and. total > 0.0_wp) then
-                rest = sum(abs(vertical(:n))) - abs(vertical(i))
-                moved = (abs(total - cosine(i)*vertical(i)) + cosine(i)*rest)/total
-            end if
-            wheel%contact(i)%est_err_load = model%profile_accuracy*stiffness(i)*moved
+        do side = 1, size(wheels)
+            do i = 1, wheels(side)%n
+                associate (contact => wheels(side)%contact(i))
+                    contact%est_err_load = model%profile_accuracy*load_slope(contact)
+                    if (.not. (load_is_given .and. total > 0.0_wp)) cycle
+                    slope = load_slope(contact)*contact%force(3)
+                    contact%est_err_load = contact%est_err_load &
+                        *(abs(total - cos(contact%angle)*slope) &
+                          + cos(contact%angle)*(absolute - abs(slope)))/total
+                end associate
+            end do
         end do
     end subroutine estimate_loads
+
+    ! How the normal force of a contact grows with its approach, over the force, 1/mm.
+    pure real(wp) function load_slope(contact)
+        type(wheel_contact_t), intent(in) :: contact
+
+        load_slope = 0.0_wp
+        if (contact%figures%normal%penetration > 0.0_wp) &
+            load_slope = hertz_power/contact%figures%normal%penetration
+    end function load_slope
 
     !> Name pressures of a wheel above the limit that the user has set; its status becomes the worst
     !> of its contacts'.
