@@ -42,7 +42,7 @@ def draw(functions, conicity):
 def draw_functions(radii, angles, functions):
     """Rolling radius difference and contact angles over the shift, broken where a contact jumps."""
     shift = functions.numbers("y_mm")
-    jumped = {side: style.jumps(functions.numbers(f"y_wheel_{side}_mm"))
+    jumped = {side: style.jumps(shift, functions.numbers(f"y_wheel_{side}_mm"))
               for side in ("right", "left")}
     either = [any(both) for both in zip(*jumped.values())]
     radii.plot(*style.broken(either, shift, functions.numbers("delta_r_mm")), color=RIGHT.colour,

@@ -112,7 +112,8 @@ class Sweep:
             if method.normal == "strip":
                 low, high = (method.values[name] for name in ("ymin_mm", "ymax_mm"))
                 return [0.5 * (one + other) for one, other, left, right in zip(
-                    method.yw, method.yw[1:], style.jumps(low), style.jumps(high))
+                    method.yw, method.yw[1:], style.jumps(method.yw, low),
+                    style.jumps(method.yw, high))
                     if left and right]
         return []
 

@@ -82,7 +82,8 @@ class ContactFunctions(Table):
         from ._plot import plot_lines
         from ._style import broken, jumps
 
-        y, delta_r = broken(jumps(self.y_wheel_right, self.y_wheel_left), self.y, self.delta_r)
+        y, delta_r = broken(jumps(self.y, self.y_wheel_right, self.y_wheel_left), self.y,
+                            self.delta_r)
         return plot_lines(axes, y, {"": delta_r}, "lateral shift $y$, mm",
                           "rolling radius difference, mm")
 

@@ -212,7 +212,7 @@ class Pictures(HostTest):
         np.testing.assert_array_equal(line.get_xdata()[whole], functions.y)
         np.testing.assert_array_equal(line.get_ydata()[whole], functions.delta_r)
         places = functions.y_wheel_right, functions.y_wheel_left
-        jumps = np.any([abs(np.diff(place)) > 3.0 for place in places], axis=0)
+        jumps = np.any([abs(np.diff(place)) > 4.5 for place in places], axis=0)
         self.assertEqual(np.sum(~whole), np.sum(jumps))
         self.assertGreater(np.sum(jumps), 0)
         for found, lines in ((gap, [(gap.y, gap.h)]),

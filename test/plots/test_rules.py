@@ -85,7 +85,8 @@ class Rules(unittest.TestCase):
                 self.assertNotRegex(label, r"\brad\b", path.name)
 
     def test_no_line_across_a_jump(self):
-        self.assertEqual(style.jumps([0.0, 3.0, 7.0], [9.0, 9.0, 9.0]), [False, True])
+        self.assertEqual(style.jumps([0.0, 0.2, 0.4, 1.4], [0.0, 3.0, 7.0, 13.0], [9.0] * 4),
+                         [False, True, False])
         x, y = style.broken([False, True], [1, 2, 3], [4, 5, 6])
         np.testing.assert_array_equal(x, [1, 2, np.nan, 3])
         np.testing.assert_array_equal(y, [4, 5, np.nan, 6])

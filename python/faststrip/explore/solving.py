@@ -17,6 +17,7 @@ from .._library import FIRST_ERROR, FaststripError
 from .._many import solve_many
 from .._profile import draw_profile, profile_gap
 from .._results import Elements, Result, Strips
+from .._style import jumps
 from .._wear import Wear
 from .._wheelset import Wheelset
 from .case import RADIUS, Case
@@ -30,7 +31,6 @@ AXES = {"cksi": 0, "ceta": 1, "cphi": 2}
 # Displacements of a sweep, mm, and creepages of a map along each side.
 SWEEP = np.linspace(-10.0, 10.0, 41)
 MAP_POINTS = 17
-JUMP = 4.0  # mm on the wheel from one displacement to the next: the contact is another one
 # Half the width of a creep curve: the first that holds the creepage.
 WIDTHS = {"cksi": (0.005, 0.01, 0.02), "ceta": (0.005, 0.01, 0.02), "cphi": (0.0004, 0.001)}
 
@@ -285,7 +285,7 @@ class Solver(Kept):
         places = np.array([math.nan if isinstance(one, str) else one.place.y_wheel
                            for one in found])
         for values in pressure.values():
-            values[:-1][np.abs(np.diff(places)) > JUMP] = math.nan
+            values[:-1][jumps(SWEEP, places)] = math.nan
         return pressure
 
     def free_rolling(self, case: Case) -> Tuple[float, float, float]:

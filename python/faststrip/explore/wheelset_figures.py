@@ -8,12 +8,11 @@ from typing import Any, Dict, List, Union
 import numpy as np
 from bokeh.models import CustomJSTickFormatter, FixedTicker, Legend, Range1d, Span
 
-from .._style import GREY, PALE
+from .._style import GREY, PALE, jumps
 from .case import CONTROL
 from .figures import here
 from .look import AXIS, BODY, LEFT, RIGHT, SMALL
 from .picture import BESIDE_FRAME, HEIGHT, WIDTH, Array, Picture, first_above
-from .solving import JUMP
 from .wheelset import DISPLACEMENTS, SIDES, Functions, WheelsetOutcome
 from .wire import Direct
 
@@ -169,18 +168,17 @@ class WheelsetPictures:
                 picture.clear("")
             return
         of_y, conicity = functions
-        self.radii.draw(of_y.y, {"delta_r": broken(of_y.delta_r, of_y.y_wheel_right,
+        self.radii.draw(of_y.y, {"delta_r": broken(of_y.y, of_y.delta_r, of_y.y_wheel_right,
                                                    of_y.y_wheel_left)}, 1.0)
         self.angles.draw(of_y.y, {
-            "right": broken(np.degrees(of_y.angle_right), of_y.y_wheel_right),
-            "left": broken(np.degrees(of_y.angle_left), of_y.y_wheel_left)}, 2.0)
+            "right": broken(of_y.y, np.degrees(of_y.angle_right), of_y.y_wheel_right),
+            "left": broken(of_y.y, np.degrees(of_y.angle_left), of_y.y_wheel_left)}, 2.0)
         self.conicity.draw(conicity.amplitude, {"klingel": conicity.tan_gamma_e,
                                                 "regression": conicity.regression}, 0.1)
 
 
-def broken(values: Array, *places: Array) -> Array:
+def broken(over: Array, values: Array, *places: Array) -> Array:
     """A line with gaps where a contact jumps on its wheel."""
     found = values.copy()
-    for place in places:
-        found[:-1][np.abs(np.diff(place)) > JUMP] = math.nan
+    found[:-1][jumps(over, *places)] = math.nan
     return found

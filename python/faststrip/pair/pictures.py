@@ -19,9 +19,6 @@ Array = npt.NDArray[np.float64]
 KN = 1e3
 PER_CENT = 100.0
 DIVERGING = "RdBu_r"
-# A place of contact that moves farther than that, mm, and besides than so many times the
-# displacement has jumped. Chosen: S1002 on 60E1 moves up to 6 times as far, and jumps by 4 to 12.
-JUMP, RATE = 2.0, 5.0
 # Of a creepage: what stands at its axis, and how many of that it has.
 CREEPAGES: Dict[str, Tuple[str, float]] = {
     "cksi": (r"longitudinal creepage, %", PER_CENT),
@@ -33,7 +30,7 @@ def plot_sweep(found: SweepResult, figure: Any) -> Any:
     """Forces, contact angle, maximum pressure and the patch, over the displacement."""
     low = found.rail_y + found.y_min * np.cos(found.contact_angle)
     high = found.rail_y + found.y_max * np.cos(found.contact_angle)
-    jumps = np.abs(np.diff(found.rail_y)) > JUMP + RATE * np.abs(np.diff(found.y))
+    jumps = np.array(style.jumps(found.y, found.rail_y))
     apart = np.maximum(low[:-1], low[1:]) > np.minimum(high[:-1], high[1:])
 
     def broken(values: Array) -> Array:
