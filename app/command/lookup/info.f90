@@ -46,7 +46,7 @@ contains
         call say_axis('ratios of creepages', lookup%ratio%x)
         call say_axis('a/b', exp(lookup%shape%x))
         if (lookup%promised > 0.0_wp) &
-            call say_promise(lookup%promised, 'mu N and mu N c')
+            call say_claim(lookup%promised, 'mu N and mu N c')
         if (lookup%tested == 0) return
         call say('errors on ' // integer_text(lookup%tested) // ' fresh contacts, over mu N and ' &
                  // 'mu N c: mean, 99th percentile, worst')
@@ -77,7 +77,7 @@ contains
             call say('  shortest cell of y: ' // trim(number_text( &
                      minval(wheel%y%x(2:) - wheel%y%x(:wheel%y%n - 1)))) // ' mm')
             if (lookup%promised > 0.0_wp) &
-                call say_promise(lookup%promised, 'mu N, mu N c, N, and of the load for z')
+                call say_claim(lookup%promised, 'mu N, mu N c, N, and of the load for z')
             do kind = 1, 2
                 if (wheel%tested(kind) == 0) cycle
                 call say('errors on ' // integer_text(wheel%tested(kind)) // ' fresh states' &
@@ -95,14 +95,14 @@ contains
         end associate
     end subroutine say_wheel
 
-    subroutine say_promise(promised, what)
+    subroutine say_claim(promised, what)
         real(wp), intent(in) :: promised     ! over the unit
         character(len=*), intent(in) :: what ! its unit
 
         if (promised > 0.0_wp) &
             call say('made for a 99th percentile of ' // trim(number_text(promised)) // ' of ' &
                      // what)
-    end subroutine say_promise
+    end subroutine say_claim
 
     subroutine say_errors(errors)
         real(wp), intent(in) :: errors(:, :, :) ! of each; mean, percentile, worst; orders

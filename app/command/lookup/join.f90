@@ -40,14 +40,14 @@ contains
         command%n_words = 2
         command%usage = 'PART.fslt...'
         command%about = &
-            'Join the parts that lookup make --part or lookup wheel --part made, and judge the' &
+            'Join the parts that lookup make --part or lookup wheel --part made, and check the' &
             // new_line('a') // 'table: the same bytes as by one process. The method has to be' &
             // ' that of the parts.' // new_line('a')
         command%options = [ &
             option_t('-o', 'FILE', 'write the table there', writes=.true.), &
             option_t('--case', 'CASE.nml', 'wheel and rail of the table of a wheel', &
                      reads=.true.), &
-            option_t('--tests', 'N', 'fresh contacts to judge it by (default 10000; of a wheel' &
+            option_t('--tests', 'N', 'random contacts to check it on (default 10000; of a wheel' &
                      // new_line('a') // '2000 states)'), &
             method_options]
         call parse_command(command, 1, any_number)

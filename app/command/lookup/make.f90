@@ -83,7 +83,7 @@ contains
                      // ' 0.1:10)'), &
             option_t('--order', 'NAME', 'of which interpolation: linear (default) or cubic'), &
             option_t('--nu', 'NUMBER', 'Poisson''s ratio of both bodies (default 0.28)'), &
-            option_t('--tests', 'N', 'fresh contacts to judge it by (default 10000)'), &
+            option_t('--tests', 'N', 'random contacts to check it on (default 10000)'), &
             option_t('--axes-of', 'TABLE', 'its nodes and nu, instead of refining: by a costly' &
                      // new_line('a') // 'method on the nodes of a cheap one', reads=.true.), &
             part_options, method_options]
@@ -138,7 +138,7 @@ contains
                      // new_line('a') // 'load for z: 0.005 is half a per cent (default 0.03)'), &
             option_t('--order', 'NAME', 'of which interpolation: cubic (default) or linear'), &
             option_t('--least-step', 'MM', 'the shortest cell along y (default 0.02)'), &
-            option_t('--tests', 'N', 'fresh states to judge it by (default 2000)'), &
+            option_t('--tests', 'N', 'random states to check it on (default 2000)'), &
             option_t('--axes-of', 'TABLE', 'its nodes, instead of refining', reads=.true.), &
             part_options, method_options]
         call parse_command(command, 1)

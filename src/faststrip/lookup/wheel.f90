@@ -82,7 +82,7 @@ contains
         call check_place(lookup, order, place, status)
         if (status%code /= st_ok) return
         if (size(contacts, 2) < lookup%wheel%slots .or. size(contacts, 1) /= n_contact_numbers) then
-            call set_status(status, st_bad_argument, 'too little room for the contacts')
+            call set_status(status, st_bad_argument, 'too little capacity for the contacts')
             return
         end if
         call find_place(lookup, order, place, cell)

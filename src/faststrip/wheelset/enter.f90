@@ -77,7 +77,7 @@ contains
         else if (order /= lookup_linear .and. order /= lookup_cubic) then
             call refuse('the order of interpolation must be 1 or 3')
         else if (lookup%wheel%n_errors < n_wheel_errors) then
-            call refuse('a lookup table of an older version, without a promise of z: make it anew')
+            call refuse('a lookup table of an older version, without errors of z: make it again')
         else if (abs(g - lookup%wheel%shear) > same_material*g .or. &
                  abs(nu - lookup%nu) > same_material) then
             call refuse('the lookup table is of other materials: G ' // &
