@@ -116,6 +116,14 @@ enum faststrip_friction {
     FASTSTRIP_FRICTION_EXPONENTIAL = 4 /* f = 2^(-s/h) */
 };
 
+/* What the places of friction across the rail are. Methods without strips, rows or elements of
+ * their own take the mean by load. */
+enum faststrip_places {
+    FASTSTRIP_OVER_CONTACT = 0, /* y of the contact, mm */
+    FASTSTRIP_OVER_RAIL = 1,    /* y on the rail's profile, mm; needs rail_y */
+    FASTSTRIP_OVER_ANGLE = 2    /* contact angle of either sign, rad; needs contact_angle */
+};
+
 /* One contact. Fill it in with faststrip_default_case first. */
 typedef struct faststrip_case {
     size_t size;          /* of this struct; set by faststrip_default_case */
@@ -154,6 +162,11 @@ typedef struct faststrip_case {
     double tread_angle;   /* contact angle up to which the tread's mu counts, rad, >= 0 */
     double flange_angle;  /* from which the flange's counts, rad; between both linearly */
     double contact_angle; /* of this contact, of either sign, rad; of wheelsets it is found */
+    int n_mu;             /* places of a table of mu across the rail, 1 to 32; 0: mu is the same */
+    int mu_over;          /* enum faststrip_places: what the places are */
+    const double *mu_at;  /* n_mu places, increasing, mm or rad; read in the call that is made */
+    const double *mu_table; /* mu there, in place of mu: linear between, constant beyond */
+    double rail_y;        /* y on the rail's profile at y = 0, mm; of wheelsets it is found */
 } faststrip_case;
 
 /* Figures of one contact. Estimated errors are not negative; the depth is the penetration less the

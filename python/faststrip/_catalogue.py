@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from ctypes import c_double, c_int, c_size_t
+from ctypes import c_double, c_int, c_size_t, c_void_p
 from typing import Any, Dict, List, Tuple
 
 # Unit, as UDUNITS writes it, what it is, and what must be there for it to be known.
@@ -130,6 +130,9 @@ class Case(ctypes.Structure):
         *members(c_int, "friction"),
         *members(c_double, "kinetic_share", "half_slip_speed", "speed", "slope_factor",
                  "flange_share", "tread_angle", "flange_angle", "contact_angle"),
+        *members(c_int, "n_mu", "mu_over"),
+        *members(c_void_p, "mu_at", "mu_table"),
+        *members(c_double, "rail_y"),
     ]
 
 

@@ -146,7 +146,7 @@ def number_of(names: Dict[str, int], name: Any, what: str) -> int:
 
 MATERIAL_NAMES = "material.e_wheel", "material.e_rail", "material.nu_wheel", "material.nu_rail"
 CREEPAGE_NAMES = "creepage[0]", "creepage[1]", "creepage[2]"
-MOTION_NAMES = "speed", "contact_angle"
+MOTION_NAMES = "speed", "contact_angle", "rail_y"
 FASTSIM_NAMES = ("a", "b", "shear_modulus", "coefficients[0]", "coefficients[1]",
                  "coefficients[2]", *CREEPAGE_NAMES, "mu", "load")
 
@@ -421,7 +421,7 @@ class Contact:
     def solve(self, *, load: Optional[float] = None, penetration: Optional[float] = None,
               creepage: Tuple[float, float, float] = (0.0, 0.0, 0.0), mu: float = 0.3,
               material: Material = Material(), friction: Friction = CONSTANT, speed: float = 0.0,
-              contact_angle: float = 0.0, warm_start: bool = False,
+              contact_angle: float = 0.0, rail_y: float = 0.0, warm_start: bool = False,
               target: Optional[str] = None, tolerance: Optional[float] = None,
               budget_us: Optional[float] = None, derivatives: bool = False) -> Result:
         """Solve for a load or a penetration: one of the two.
@@ -439,12 +439,14 @@ class Contact:
         material : Material
             Elastic constants of both bodies.
         friction : Friction
-            How mu falls with slip, which needs the speed, and what it is on the flange, for which
-            contact_angle counts.
+            How mu falls with slip, which needs the speed, and what it is on the flange or across
+            the rail, for which contact_angle and rail_y count.
         speed : float
             Rolling speed, mm/s.
         contact_angle : float
             Of either sign, rad.
+        rail_y : float
+            Where y = 0 is on the profile of the rail, mm: for friction at places over the rail.
         warm_start : bool
             Begin with the last solution, if there is one.
         target : str
@@ -489,7 +491,8 @@ class Contact:
         if friction is not self._friction:
             take_friction(case, friction)
             self._friction = friction
-        case.speed, case.contact_angle = numbers(MOTION_NAMES, (speed, contact_angle))
+        case.speed, case.contact_angle, case.rail_y = numbers(MOTION_NAMES,
+                                                              (speed, contact_angle, rail_y))
         case.warm_start = flag("warm_start", warm_start)
         want(case, target, tolerance, budget_us)
         figures = Figures()

@@ -276,7 +276,8 @@ def solve_many(gaps: Any, *, load: Optional[npt.ArrayLike] = None,
                penetration: Optional[npt.ArrayLike] = None, creepage: Any = (0.0, 0.0, 0.0),
                mu: npt.ArrayLike = 0.3, material: Material = STEEL,
                friction: Friction = CONSTANT, speed: npt.ArrayLike = 0.0,
-               contact_angle: npt.ArrayLike = 0.0, normal: str = "strip",
+               contact_angle: npt.ArrayLike = 0.0, rail_y: npt.ArrayLike = 0.0,
+               normal: str = "strip",
                tangential: str = "faststrip", strips_per_patch: Union[int, str] = 15,
                points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
                estimate: bool = True, resolution_limit: float = 0.1, force_limit: float = 0.1,
@@ -303,8 +304,9 @@ def solve_many(gaps: Any, *, load: Optional[npt.ArrayLike] = None,
         Longitudinal, lateral and spin (rad/mm) creepage about y = 0.
     mu : array_like
         Coefficient of friction.
-    speed, contact_angle : array_like
-        Rolling speed, mm/s, and contact angle, rad, for friction that needs them.
+    speed, contact_angle, rail_y : array_like
+        Rolling speed, mm/s, contact angle, rad, and where y = 0 is on the profile of the rail, mm,
+        for friction that needs them.
     material, friction, normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, \
 estimate, resolution_limit, force_limit, target, tolerance, budget_us
         As of `Contact` and `Contact.solve`, the same for all contacts.
@@ -352,10 +354,11 @@ estimate, resolution_limit, force_limit, target, tolerance, budget_us
     n_threads = cores() if threads is None else whole("threads", threads, 1, MOST_THREADS)
     table = _Gaps(gaps)
     names = ["load" if case.by_load else "penetration", "cksi", "ceta", "cphi", "mu", "speed",
-             "contact_angle"]
+             "contact_angle", "rail_y"]
     told = [names[0], *CREEPAGE_NAMES, *names[4:]]
     values = [array(name, value) for name, value in zip(told, (
-        load if case.by_load else penetration, *_creepages(creepage), mu, speed, contact_angle))]
+        load if case.by_load else penetration, *_creepages(creepage), mu, speed, contact_angle,
+        rail_y))]
     try:
         shape = np.broadcast_shapes(table.shape, *(value.shape for value in values))
     except ValueError:

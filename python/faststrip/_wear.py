@@ -15,6 +15,7 @@ from ._catalogue import Case
 from ._record import Row, Table
 
 Array = npt.NDArray[np.float64]
+PLACES = {"contact": 0, "rail": 1, "angle": 2}
 KINDS = {"constant": 0, "linear": 2, "rational": 3, "exponential": 4}
 N_REGIME = 4
 N_FIGURES = 6
@@ -43,6 +44,13 @@ class Friction:
         mu on the flange over that on the tread.
     tread_angle, flange_angle : float
         Contact angle up to which the tread's mu counts, and from which the flange's counts, rad.
+    at, mu : sequence of floats
+        Places across the rail, increasing, up to 32, and the coefficient there, in place of the
+        argument mu: linear between, constant beyond. Methods without strips, rows or elements of
+        their own take the mean by load.
+    over : str
+        What the places are: ``contact``, its y, ``rail``, y on its profile, mm, or ``angle``,
+        contact angles of either sign, rad.
     """
 
     kind: str = "constant"
@@ -52,6 +60,9 @@ class Friction:
     flange_share: float = 1.0
     tread_angle: float = 0.0
     flange_angle: float = 0.0
+    at: Sequence[float] = ()
+    mu: Sequence[float] = ()
+    over: str = "rail"
 
 
 CONSTANT = Friction()
@@ -67,9 +78,17 @@ def take_friction(case: Case, friction: Any) -> None:
         raise refused("friction.kind", f"one of {', '.join(KINDS)}", friction.kind)
     values = numbers([f"friction.{name}" for name in NAMES],
                      [getattr(friction, name) for name in NAMES])
+    if not isinstance(friction.over, str) or friction.over not in PLACES:
+        raise refused("friction.over", f"one of {', '.join(PLACES)}", friction.over)
+    table = array("friction.at", friction.at), array("friction.mu", friction.mu)
+    if table[0].ndim != 1 or table[0].shape != table[1].shape:
+        raise refused("friction.at and friction.mu", "as many numbers", (friction.at, friction.mu))
     case.friction = KINDS[friction.kind]
     for name, value in zip(NAMES, values):
         setattr(case, name, value)
+    case.n_mu, case.mu_over = table[0].size, PLACES[friction.over]
+    case.mu_at, case.mu_table = (values.ctypes.data for values in table)
+    case.table = table  # lives as long as the case
 
 
 class _Law(ctypes.Structure):

@@ -301,14 +301,14 @@ contains
             else if (workspace%solved_by == normal_norm) then
                 call prepare_grid(memory, memory%norm%grid, workspace, case, status)
                 if (is_error(status)) return
-                call solve_on_grid(memory%tang, memory%norm%grid, edges_of_norm, case, &
+                call solve_on_grid(memory%tang, memory%norm%grid, edges_of_norm, workspace, case, &
                                    result%tangential, status, asked_field(workspace, case))
             else
                 call sample_pressures(workspace, case%methods, 1.0_wp, memory%grid, status)
                 if (is_error(status)) return
                 call prepare_grid(memory, memory%grid, workspace, case, status)
                 if (is_error(status)) return
-                call solve_on_grid(memory%tang, memory%grid, edges_sampled, case, &
+                call solve_on_grid(memory%tang, memory%grid, edges_sampled, workspace, case, &
                                    result%tangential, status, asked_field(workspace, case))
             end if
         end associate
@@ -327,11 +327,11 @@ contains
 
         problem%material = case%material
         problem%demand = case%demand_t
-        problem%mu = case%mu
+        problem%mu = workspace%mu
         problem%creepage = case%creepage
-        problem%friction = case%friction
+        problem%friction = workspace%friction
         problem%options%edges = edges_of_norm
-        call check_flexibility(case, status)
+        call check_flexibility(workspace, case, status)
         if (is_error(status)) return
         associate (grid => memory%norm%grid)
             call memory%watch_tang(count(grid%pressure > 0.0_wp), .true.)
@@ -349,12 +349,13 @@ contains
 
     !> Refuse dissimilar materials with a smaller initial slope: moduli that are lowered for it
     !> would let pressures do more.
-    pure subroutine check_flexibility(case, status)
+    pure subroutine check_flexibility(workspace, case, status)
+        type(workspace_t), intent(in) :: workspace
         type(contact_case_t), intent(in) :: case
         type(status_t), intent(out) :: status
 
         call clear_status(status)
-        if (are_alike(case%material) .or. case%friction%slope_factor >= 1.0_wp) return
+        if (are_alike(case%material) .or. workspace%friction%slope_factor >= 1.0_wp) return
         call set_status(status, st_bad_argument, 'tang takes no initial_slope_factor for bodies ' &
                         // 'of dissimilar materials')
     end subroutine check_flexibility
@@ -374,20 +375,20 @@ contains
         character(len=message_length) :: words
         logical :: is_norm
 
-        if (falls(case%friction)) then
+        if (falls(workspace%friction)) then
             call name_falling_friction(status)
             return
         end if
         is_norm = workspace%solved_by == normal_norm
         associate (memory => self%memory, errors => result%force_errors)
             if (is_norm) then
-                call solve_on_grid(memory%coarse, memory%norm%coarse, edges_of_norm, case, coarse, &
-                                   estimate)
+                call solve_on_grid(memory%coarse, memory%norm%coarse, edges_of_norm, workspace, &
+                                   case, coarse, estimate)
             else
                 call sample_pressures(workspace, case%methods, 2.0_wp, memory%coarse_grid, estimate)
                 if (.not. is_error(estimate)) &
-                    call solve_on_grid(memory%coarse, memory%coarse_grid, edges_sampled, case, &
-                                       coarse, estimate)
+                    call solve_on_grid(memory%coarse, memory%coarse_grid, edges_sampled, &
+                                       workspace, case, coarse, estimate)
             end if
             if (is_error(estimate)) then
                 words = 'no error of the forces can be estimated:'
@@ -396,15 +397,15 @@ contains
                 return
             end if
             if (is_norm) then
-                errors = estimate_tang(memory%norm%grid, case%mu, result%tangential, &
+                errors = estimate_tang(memory%norm%grid, workspace%mu, result%tangential, &
                                        coarse, shares_of_grid(result%normal_errors))
             else if (workspace%is_ellipse) then
-                errors = estimate_tang(memory%grid, case%mu, result%tangential, &
+                errors = estimate_tang(memory%grid, workspace%mu, result%tangential, &
                                        coarse, spread(0.0_wp, 1, 3))
                 call add_shape_errors(workspace, case, errors, estimate)
                 if (is_error(estimate)) return
             else
-                errors = estimate_tang(memory%grid, case%mu, result%tangential, &
+                errors = estimate_tang(memory%grid, workspace%mu, result%tangential, &
                                        coarse, shares_of_strips(result%normal_errors))
             end if
             result%forces_are_estimated = .true.
@@ -457,10 +458,11 @@ contains
         if (case%asked%field) call grow_field(workspace, elements, status)
     end subroutine prepare_grid
 
-    subroutine solve_on_grid(tang, grid, edges, case, tangential, status, field)
+    subroutine solve_on_grid(tang, grid, edges, workspace, case, tangential, status, field)
         type(tang_workspace_t), intent(inout) :: tang
         type(contact_grid_t), intent(in) :: grid
         integer, intent(in) :: edges
+        type(workspace_t), intent(in) :: workspace      ! its friction counts
         type(contact_case_t), intent(in) :: case
         type(tangential_result_t), intent(out) :: tangential
         type(status_t), intent(out) :: status
@@ -468,11 +470,11 @@ contains
 
         type(tang_options_t) :: options
 
-        call check_flexibility(case, status)
+        call check_flexibility(workspace, case, status)
         if (is_error(status)) return
         options%edges = edges
-        call tang_solve(tang, grid, softened(case%material, case%friction), case%mu, &
-                        case%creepage, options, tangential, status, field, case%friction)
+        call tang_solve(tang, grid, softened(case%material, workspace%friction), workspace%mu, &
+                        case%creepage, options, tangential, status, field, workspace%friction)
     end subroutine solve_on_grid
 
     !> Room for elements in the field, if there is too little.

@@ -323,15 +323,26 @@ class GapFile(ProgramTest):
         turned = self.solved("contact", "turned.nml", "--normal", "norm", *words)
         self.assert_close(-float(turned["Fx_N"]), float(both["Fx_N"]), 1e-6)
         self.assert_close(float(turned["pmax_MPa"]), float(both["pmax_MPa"]), 1e-9)
+        # FASTSTRIP has the slip in its strips; its estimate bounds what is left.
+        for case, exact in (("case.nml", both), ("turned.nml", turned)):
+            row = self.solved("contact", case)
+            error = abs(float(row["Fx_N"]) - float(exact["Fx_N"])) / (0.3 * 1e5)
+            self.assertLess(error, 0.03)
+            self.assertLess(error, float(row["est_err_Fx"]))
+            self.assertLess(float(row["est_err_Fx"]), 0.1)
         # All others say that they leave it out.
-        for tangential in ("faststrip", "fastsim", "linear", "polach"):
+        for tangential in ("fastsim", "linear", "polach"):
             done = self.run_program("contact", "case.nml", "--tangential", tangential)
             self.assertEqual(rows_of(done.stdout)[0]["status"], "under_resolved", tangential)
             self.assertIn("dissimilar materials", done.stderr, tangential)
-            if tangential == "faststrip":
-                error = abs(float(rows_of(done.stdout)[0]["Fx_N"]) - float(both["Fx_N"]))
-                self.assertGreater(error, 0.1 * 0.3 * 1e5)
-                self.assertGreater(float(rows_of(done.stdout)[0]["est_err_Fx"]) * 0.3 * 1e5, error)
+
+    def test_friction_power_between_dissimilar_materials(self):
+        # Where nothing sticks tractions do less on the creepage than on the slip.
+        text = gap_case(motion="cksi = 0.004")
+        self.write("case.nml", text.replace("mu = 0.3", "mu = 0.1, E_rail_MPa = 7e4"))
+        row = self.solved("contact", "case.nml", "--fields", "fields.csv")
+        tang = self.solved("contact", "case.nml", "--tangential", "tang")
+        self.assert_close(float(row["friction_power_N"]), float(tang["friction_power_N"]), 0.02)
 
     def test_what_tang_refuses(self):
         text = gap_case(motion="cksi = 0.001")

@@ -91,3 +91,51 @@ class Friction(ProgramTest):
             row = self.forces(flange.format(repr(angle)), case=case)
             self.assertAlmostEqual(numbers([row], "Fx_N")[0] / numbers([whole], "Fx_N")[0], share,
                                    places=4)
+
+    def test_each_strip_has_the_friction_of_its_place(self):
+        half = "&friction\n  mu_y_mm = 0.0, 1.0e-6\n  mu_table = 0.1, 0.4\n/\n"
+        for method in ("faststrip", "faststrip-plain", "fastsim", "tang"):
+            row = self.forces(half, moving(0.2), method)
+            self.assertAlmostEqual(-float(row["Fx_N"]) / 0.25e5, 1.0, delta=0.01, msg=method)
+            # What slides right of the middle pulls to the left of it: about z from x to y.
+            self.assertGreater(float(row["Mz_Nmm"]), 0.1e5, msg=method)
+        # What has one coefficient takes the mean.
+        mean = self.forces("", moving(0.2), "polach")
+        row = self.forces(half, moving(0.2), "polach")
+        self.assertAlmostEqual(float(row["Fx_N"]) / float(mean["Fx_N"]), 0.25 / 0.3, delta=1e-6)
+
+    def test_a_table_of_a_row_is_that_of_a_case(self):
+        table = "&friction\n  mu_y_mm = -1.0, 1.5\n  mu_table = 0.1, 0.4\n/\n"
+        of_case = self.forces(table, moving(0.002))
+        names = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm,mu_y_mm,mu_table"
+        self.write("rows.csv", names + '\na,gap.csv,2.1e5,0.28,0.3,1e5,0.002,0,0,'
+                   '"-1.0, 1.5","0.1, 0.4"\nb,gap.csv,2.1e5,0.28,0.3,1e5,0.002,0,0,"1, 0","1, 1"\n')
+        done = self.run_program("batch", "rows.csv", "--normal", "hertz")
+        rows = rows_of(done.stdout)
+        self.assertEqual(rows[0]["Fx_N"], of_case["Fx_N"])
+        self.assertEqual(rows[1]["status"], "bad_argument")
+        self.assertIn("mu_y_mm must increase", done.stderr)
+
+    def test_what_is_no_table_is_refused(self):
+        for table, words in (
+                ("mu_table = 0.3", "&friction mu_y_mm must be given with mu_table"),
+                ("mu_y_mm = 1.0", "&friction mu_table must be given with places of it"),
+                ("mu_y_mm = 1.0\n  mu_table = 0.3, 0.2",
+                 "&friction mu_y_mm must have as many numbers as mu_table, 2"),
+                ("mu_y_mm = 1.0, 1.0\n  mu_table = 0.3, 0.2", "&friction mu_y_mm must increase"),
+                ("mu_y_mm = 1.0, nan\n  mu_table = 0.3, 0.2",
+                 "&friction mu_y_mm must be a finite number"),
+                ("mu_y_mm = 1.0, 2.0\n  mu_table = 0.3, -0.2",
+                 "&friction mu_table must be at most 32 finite numbers from 0 on"),
+                ("mu_angle_rad = 0.1\n  mu_table = 0.3",
+                 "&friction mu_angle_rad must not be given with a gap file")):
+            self.refused_friction(f"&friction\n  {table}\n/\n", words)
+        both = "&friction\n  mu_y_mm = 0.1\n  mu_angle_rad = 0.1\n  mu_table = 0.3\n/\n"
+        self.write("both.nml", profile_case() + both)
+        self.refused(1, "contact", "both.nml",
+                     says=["&friction mu_y_mm must not be given with mu_angle_rad"])
+        flange = ("&friction\n  mu_y_mm = 0.1\n  mu_table = 0.3\n  mu_flange = 0.1\n"
+                  "  tread_angle_rad = 0.1\n  flange_angle_rad = 0.2\n/\n")
+        self.write("flange.nml", profile_case() + flange)
+        self.refused(1, "contact", "flange.nml",
+                     says=["&friction mu_table must not be given with mu_flange"])

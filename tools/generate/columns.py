@@ -55,9 +55,10 @@ def members_of(text, struct):
     body = re.search(rf"type, bind\(c\) :: {struct}\n(.*?)\n    end type", text, re.DOTALL)
     joined = re.sub(r"&\s*\n\s*", "", body.group(1))
     found = []
-    for kind, names in re.findall(r"(?:integer|real)\((\w+)\) :: (.*)", joined):
-        for name, length in re.findall(r"(\w+)(?:\((\d+)\))?(?: = 0)?(?:, |$)", names):
-            found.append((kind, name, int(length or 1)))
+    for kind, names in re.findall(r"(?:integer|real|type)\((\w+)\) :: (.*)", joined):
+        for name, length in re.findall(r"(\w+)(?:\((\d+)\))?(?: = (?:0|c_null_ptr))?(?:, |$)",
+                                       names):
+            found.append((kind.replace("c_ptr", "c_void_p"), name, int(length or 1)))
     return found
 
 
@@ -109,7 +110,7 @@ def of_f77(rows_text, row, told):
 def of_python(rows, structs):
     lines = ['"""Units, meanings and structs of the library, written by columns.py."""', "",
              "from __future__ import annotations", "", "import ctypes",
-             "from ctypes import c_double, c_int, c_size_t",
+             "from ctypes import c_double, c_int, c_size_t, c_void_p",
              "from typing import Any, Dict, List, Tuple", "",
              "# Unit, as UDUNITS writes it, what it is, and what must be there for it to be known.",
              "QUANTITIES: Dict[str, Tuple[str, str, str]] = {"]

@@ -56,6 +56,8 @@ contains
             return
         end if
         prepared%mu = friction_at_angle(case%friction, case%mu, prepared%rigid_contact%gamma)
+        prepared%friction%table%y_rail = prepared%rigid_contact%y_rail
+        prepared%friction%table%angle = prepared%rigid_contact%gamma
         if (case%load_is_vertical) &
             prepared%load = contact_force(case%load, prepared%rigid_contact%gamma)
         if (case%creepage_by_formula) prepared%creepage = &

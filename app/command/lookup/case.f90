@@ -27,7 +27,8 @@ contains
         if (case%has_state) call fail(exit_bad_input, 'a lookup table is of all states: &state ' &
                                       // 'must not be given (' // path // ')')
         if (falls(case%friction) .or. case%friction%slope_factor < 1.0_wp .or. &
-            abs(case%friction%flange_share - 1.0_wp) > 0.0_wp) &
+            abs(case%friction%flange_share - 1.0_wp) > 0.0_wp .or. &
+            case%friction%table%n > 0) &
             call fail(exit_bad_input, 'a lookup table is for Coulomb friction of one number (' &
                       // path // ')')
     end subroutine read_wheel_case

@@ -1,13 +1,16 @@
 !> Variable friction, of case files and of rows of a batch.
 module faststrip_command_settings_friction
     use faststrip_base_friction, only: friction_t, friction_constant, friction_kind
+    use faststrip_base_friction_table, only: make_friction_table, over_contact, over_rail, &
+                                             over_angle
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_file_format
+    use faststrip_base_text, only: integer_text
     use faststrip_files_csv, only: csv_table_t, column_index, cell_text
     use faststrip_command_settings_group, only: case_text_t, group_t, read_group, is_set, &
                                                 given_value, number_of, refuse, refuse_each
-    use faststrip_command_settings_table, only: falling_settings, value_t, read_value, kind_words, &
+    use faststrip_command_settings_table, only: row_friction, value_t, read_value, kind_words, &
                                                 range_words, no_fault, wrong_kind
     implicit none
     private
@@ -15,12 +18,13 @@ module faststrip_command_settings_friction
     public :: read_friction_group, read_row_friction, friction_columns
 
     ! What falls, as names of a case file: the kind, then what it needs, then what any may have.
-    character(len=*), parameter :: falling_names(4) = falling_settings(:4)%key
+    character(len=*), parameter :: falling_names(4) = row_friction(:4)%key
     !> The columns that a table may have for it.
-    character(len=*), parameter :: friction_columns(5) = [character(len=20) :: &
-        'friction_kind', falling_settings(2:)%key]
+    character(len=*), parameter :: friction_columns(7) = [character(len=20) :: &
+        'friction_kind', row_friction(2:)%key]
     ! Given: of `friction_columns`.
-    integer, parameter :: at_kind = 1, at_kinetic = 2, at_half = 3, at_slope = 4, at_speed = 5
+    integer, parameter :: at_kind = 1, at_kinetic = 2, at_half = 3, at_slope = 4, at_speed = 5, &
+                          at_y = 6, at_table = 7
 
 contains
 
@@ -51,6 +55,7 @@ contains
                 call refuse(group, trim(falling_names(at)), what, values(at)%text)
             call refuse(group, trim(falling_names(at)), what, '')
         end if
+        call read_table(group, from_profiles, law)
         if (.not. is_set(group, 'mu_flange')) then
             call refuse_each(group, [character(len=20) :: 'tread_angle_rad', 'flange_angle_rad'], &
                              'must not be given without mu_flange')
@@ -81,6 +86,65 @@ contains
         end subroutine need
     end subroutine read_friction_group
 
+    !> The table of a case file, if there is one.
+    subroutine read_table(group, from_profiles, law)
+        type(group_t), intent(in) :: group
+        logical, intent(in) :: from_profiles
+        type(friction_t), intent(inout) :: law
+
+        type(value_t) :: at, mu
+        character(len=12) :: key
+        character(len=:), allocatable :: what
+        logical :: is_wrong_at
+        integer :: over
+
+        key = 'mu_y_mm'
+        over = merge(over_rail, over_contact, from_profiles)
+        if (is_set(group, 'mu_angle_rad')) then
+            if (is_set(group, key)) call refuse(group, trim(key), 'must not be given with ' &
+                                                // 'mu_angle_rad', '')
+            key = 'mu_angle_rad'
+            over = over_angle
+            if (.not. from_profiles) call refuse(group, key, 'must not be given with a gap file, ' &
+                                                 // 'which has no contact angle', '')
+        end if
+        at = given_value(group, key)
+        mu = given_value(group, 'mu_table')
+        if (mu%is_given .and. is_set(group, 'mu_flange')) &
+            call refuse(group, 'mu_table', 'must not be given with mu_flange', '')
+        call set_table(at, mu, over, law, what, is_wrong_at)
+        if (len(what) == 0) return
+        if (.not. is_wrong_at) key = 'mu_table'
+        call refuse(group, trim(key), what, '')
+    end subroutine read_table
+
+    !> The table of a case file or a row.
+    subroutine set_table(at, mu, over, law, what, is_wrong_at)
+        type(value_t), intent(in) :: at, mu    ! each in its range, if it is given
+        integer, intent(in) :: over            ! what the places are
+        type(friction_t), intent(inout) :: law ! gets it
+        character(len=:), allocatable, intent(out) :: what ! is wrong; empty: nothing
+        logical, intent(out) :: is_wrong_at    ! with the places? or with the coefficients
+
+        type(status_t) :: status
+
+        what = ''
+        is_wrong_at = mu%is_given
+        if (.not. (at%is_given .or. mu%is_given)) return
+        if (.not. at%is_given) then
+            what = 'must be given with mu_table'
+        else if (.not. mu%is_given) then
+            what = 'must be given with places of it'
+        else if (size(at%list) /= size(mu%list)) then
+            what = 'must have as many numbers as mu_table, ' // integer_text(size(mu%list))
+        else if (any(at%list(2:) <= at%list(:size(at%list) - 1))) then
+            what = 'must increase'
+        else
+            call make_friction_table(over, at%list, mu%list, law%table, status)
+            if (is_error(status)) what = trim(status%message)
+        end if
+    end subroutine set_table
+
     !> The friction of a row; an empty cell, or a column that is not there, is not given.
     subroutine read_row_friction(table, row, mu, law, status)
         type(csv_table_t), intent(in) :: table !! a table that was read
@@ -89,21 +153,22 @@ contains
         type(friction_t), intent(inout) :: law !! gets what is given
         type(status_t), intent(out) :: status  !! `st_bad_argument`, `st_file_format`
 
-        type(value_t) :: values(at_speed)
+        type(value_t) :: values(at_table)
         character(len=:), allocatable :: text, what
         integer :: at, fault
+        logical :: is_wrong_at
 
         call clear_status(status)
-        do at = 1, at_speed
+        do at = 1, at_table
             text = cell_text(table, row, column_index(table, trim(friction_columns(at))))
             if (len(text) == 0) cycle
-            call read_value(falling_settings(at), text, values(at), fault)
+            call read_value(row_friction(at), text, values(at), fault)
             if (fault == no_fault) cycle
             if (fault == wrong_kind) then
-                call refuse_cell(st_file_format, kind_words(falling_settings(at)))
+                call refuse_cell(st_file_format, kind_words(row_friction(at)))
             else
                 call refuse_cell(st_bad_argument, &
-                                 range_words(falling_settings(at), values(at)%number))
+                                 range_words(row_friction(at), values(at)%number))
             end if
             return
         end do
@@ -112,7 +177,11 @@ contains
             'must be empty with constant friction', 'must be given with falling friction', &
             'must be at most mu, the static value', 'must be given with falling friction'], law, &
             at, what)
-        if (at == 0) return
+        if (at == 0) then
+            call set_table(values(at_y), values(at_table), over_contact, law, what, is_wrong_at)
+            if (len(what) == 0) return
+            at = merge(at_y, at_table, is_wrong_at)
+        end if
         text = ''
         if (values(at)%is_given) text = values(at)%text
         call set_status(status, st_bad_argument, trim(friction_columns(at)) // ' ' // what // &

@@ -6,6 +6,7 @@
 module faststrip_command_settings_table
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_friction, only: friction_kind_names
+    use faststrip_base_friction_table, only: most_places
     use faststrip_base_kinds, only: wp
     use faststrip_base_plausible, only: of_friction, of_contact_angle, of_gauge, of_gauge_depth, &
                                         of_inclination, of_noise, of_poisson_ratio, of_radius, &
@@ -18,7 +19,7 @@ module faststrip_command_settings_table
     implicit none
     private
 
-    public :: value_t, settings, falling_settings, n_state, state_names, of_group
+    public :: value_t, settings, row_friction, n_state, state_names, of_group
     public :: find_setting, read_value, kind_words, range_words, full_words, option_help, one_of
     public :: a_text, a_path, a_word, a_number, a_list, a_flag
     public :: no_fault, wrong_kind, out_of_range
@@ -181,11 +182,21 @@ module faststrip_command_settings_table
                   'contact angle up to which `mu` of `&material` counts', range=from_0, &
                   quantity=of_contact_angle), &
         setting_t('friction', 'flange_angle_rad', a_number, &
-                  'contact angle from which `mu_flange` counts', quantity=of_contact_angle)]
+                  'contact angle from which `mu_flange` counts', quantity=of_contact_angle), &
+        setting_t('friction', 'mu_y_mm', a_list, &
+                  'where `mu_table` counts: y of the rail profile, increasing; of a gap file y of' &
+                  // newline // 'the gap; not beside `mu_angle_rad`', most=most_places), &
+        setting_t('friction', 'mu_angle_rad', a_list, &
+                  'where `mu_table` counts: contact angles of either sign, increasing', &
+                  range=from_0, most=most_places), &
+        setting_t('friction', 'mu_table', a_list, &
+                  'coefficients there, in place of `mu`: linear between, constant beyond', &
+                  range=from_0, most=most_places)]
 
-    !> Of friction that falls: kind, coefficient, slip speed, factor of the slope; the speed. With
-    !> it rows of a batch look nothing up.
-    type(setting_t), parameter :: falling_settings(5) = [of_friction_laws(:4), of_motion(6)]
+    !> Of the friction of a row: kind, coefficient, slip speed, factor of the slope; the speed;
+    !> places and coefficients of a table. With it rows of a batch look nothing up.
+    type(setting_t), parameter :: row_friction(7) = [of_friction_laws(:4), of_motion(6), &
+                                                     of_friction_laws(8), of_friction_laws(10)]
 
     type(setting_t), parameter :: of_numerics(*) = [ &
         setting_t('numerics', 'normal', a_word, 'normal method, one of the above', &
@@ -568,6 +579,7 @@ contains
         case (a_list)
             words = 'at most ' // integer_text(setting%most) // ' finite numbers'
             if (setting%range == above_0) words = trim(words) // ' above 0'
+            if (setting%range == from_0) words = trim(words) // ' from 0 on'
         case (a_number)
             select case (setting%range)
             case (above_0); words = 'above 0'

@@ -171,7 +171,7 @@ def contact(wheel: Body, rail: Body, y: float = 0.0, *, vertical_load: Optional[
     with Contact(with_elements=True, **of_contact) as solver:
         solver.set_gap(gap)
         result = solver.solve(creepage=motion, mu=number("mu", mu), contact_angle=gap.angle,
-                              **of_solve)
+                              rail_y=gap.y_rail, **of_solve)
         strips, elements = solver.strips(), solver.elements()
     forces = map(float, track_forces(result.fy, result.load, gap.angle))
     found: Tuple[Any, ...] = (y, gap.angle, gap.radius, gap.y_rail, gap.y_wheel, *motion, *forces,

@@ -179,7 +179,8 @@ def creep_map(wheel: Body, rail: Body, y: float = 0.0, *,
                  for (name, one), rolled in zip(given.items(), rolling)]
     pair.solving[demand.of_solver] = demand.at(value, gap.angle)
     many = solve_many(gap, creepage=tuple(creepages), mu=number("mu", mu),
-                      contact_angle=gap.angle, warm_start=True, threads=threads, **pair.solving)
+                      contact_angle=gap.angle, rail_y=gap.y_rail, warm_start=True, threads=threads,
+                      **pair.solving)
     found: Tuple[Any, ...] = (y, gap.angle, gap.radius, tuple(NAMES[name] for name in rows),
                               *creepages, *(getattr(many, one.name) for one in fields(ManyResult)))
     return CreepMap(*found)

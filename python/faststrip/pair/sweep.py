@@ -167,7 +167,7 @@ def sweep(wheel: Body, rail: Body, y: npt.ArrayLike, *,
     pair.solving[demand.of_solver] = demanded
     angle, creepages = placed[1, there], placed[5:8, there]
     many = solve_many(found_gaps, creepage=tuple(creepages), mu=mus[there], contact_angle=angle,
-                      threads=threads, **pair.solving)
+                      rail_y=placed[3, there], threads=threads, **pair.solving)
     placed[-2:, there] = track_forces(many.fy, many.load, angle)
     return SweepResult(*placed, **_spread(many, there, problems))
 

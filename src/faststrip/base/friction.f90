@@ -18,12 +18,14 @@
 !>   those of a creepage so many times smaller. Of modified FASTSIM (Spiryagin, Polach and Cole
 !>   2013) this is k0; there the factor falls further with the slip area, here it does not.
 !> - **Tread and flange**: mu of the contact angle, see `friction_at_angle`.
+!> - **Across the rail**: mu at places, each strip its own, see `faststrip_base_friction_table`.
 !>
 !> A coefficient that falls with slip damps negatively: several states of slip may satisfy the law.
 !> All methods give the one that is reached from adhesion: particles enter with the static
 !> value, and slide once the traction has passed it.
 module faststrip_base_friction
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use faststrip_base_friction_table, only: friction_table_t, check_friction_table
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
@@ -65,6 +67,7 @@ module faststrip_base_friction
         real(wp) :: flange_share = 1.0_wp       !! mu on the flange over that on the tread
         real(wp) :: tread_angle = 0.0_wp        !! contact angle up to which the tread's mu counts
         real(wp) :: flange_angle = 0.0_wp       !! and from which the flange's, rad
+        type(friction_table_t) :: table         !! static coefficient at places, in place of mu
     end type friction_t
 
 contains
@@ -111,6 +114,11 @@ contains
                  (max(friction%half_slip_speed, friction%speed) > largest_speed .or. &
                   min(friction%half_slip_speed, friction%speed) < 1.0_wp/largest_speed)) then
             call set_status(status, st_out_of_range, 'a speed is beyond 1e-12 to 1e12 mm/s')
+        else if (friction%table%n /= 0 .and. friction%flange_share /= 1.0_wp) then
+            call set_status(status, st_bad_argument, 'friction of the flange must not be given ' &
+                            // 'with a table of friction')
+        else
+            call check_friction_table(friction%table, status)
         end if
     end subroutine check_friction
 

@@ -500,8 +500,8 @@ contains
         asked = search%last
         call clear_status(status)
         call estimate_force_errors(workspace%strips, &
-                                   softened(search%case%material, search%case%friction), &
-                                   search%case%mu, search%case%creepage, errors_of_fitted, &
+                                   softened(search%case%material, workspace%friction), &
+                                   workspace%mu, search%case%creepage, errors_of_fitted, &
                                    max(search%wanted%most_strips, least_points), &
                                    normal_errors_t(), asked%force_errors, status, &
                                    search%wanted%most_strips/search%before%across)

@@ -27,13 +27,11 @@ contains
         type(contact_case_t) :: slower
 
         slower%material = case%material
-        slower%mu = case%mu
         slower%methods = case%methods
         slower%asked = case%asked
         slower%wear_law%n = case%wear_law%n
-        slower%friction = case%friction
-        slower%friction%speed = case%friction%speed/share
         slower%creepage = creepage
+        workspace%friction%speed = case%friction%speed/share
         call method%solve(workspace, slower, result, status)
         if (.not. is_error(status)) call scale_slip(workspace, result, 1.0_wp/share)
     end subroutine solve_cut

@@ -20,6 +20,7 @@ module faststrip_contact_parts
     use faststrip_contact_method, only: contact_result_t, workspace_t, wear_figures_t, &
                                         normal_method_t, tangential_method_t, normal_method_of, &
                                         tangential_method_of
+    use faststrip_contact_method_friction, only: take_friction
     use faststrip_contact_methods, only: contact_methods_t, method_t, normal_auto, &
                                          tangential_none, check_normal_method, &
                                          check_tangential_method, check_resolutions
@@ -182,6 +183,8 @@ contains
         call check_forces(workspace, case, method%about, status)
         if (is_error(status)) return
         call start_lap(case%asked%times, lap)
+        call take_friction(workspace, case)
+        result%mu = workspace%mu
         call cut_creepage(case%creepage, creepage, share)
         if (.not. share < 1.0_wp .or. .not. method%cuts_creepages) then
             call method%solve(workspace, case, result, status)

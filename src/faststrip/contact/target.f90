@@ -51,7 +51,7 @@ contains
         associate (errors => result%force_errors, c => case%creepage, normal => result%normal, &
                    power => result%tangential%friction_power)
             error = (abs(c%cksi)*errors%fx + abs(c%ceta)*errors%fy &
-                     + abs(c%cphi)*errors%mz*sqrt(normal%area/pi))*case%mu*normal%load
+                     + abs(c%cphi)*errors%mz*sqrt(normal%area/pi))*result%mu*normal%load
             if (error <= 0.0_wp) return
             if (power > error*tiny(error)) then
                 error = error/power

@@ -5,6 +5,7 @@ module faststrip_interop_handle
     use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int, c_intptr_t, c_loc, c_ptr
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_friction, only: check_friction, friction_at_angle
+    use faststrip_base_friction_table, only: over_angle
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_not_finite, &
                                      st_workspace_too_small, st_ok
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
@@ -155,7 +156,10 @@ contains
         type(environment_t) :: environment
 
         call clear_status(handle%status)
-        if (.not. handle%case%friction%flange_share /= 1.0_wp) return
+        if (handle%case%friction%table%n /= 0) &
+            handle%case%friction%table%angle = handle%contact_angle
+        if (.not. (handle%case%friction%flange_share /= 1.0_wp .or. &
+                   handle%case%friction%table%over == over_angle)) return
         call hold_environment(environment)
         call check_friction(handle%case%friction, handle%status)
         if (.not. is_error(handle%status)) then

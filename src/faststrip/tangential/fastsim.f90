@@ -47,6 +47,7 @@ module faststrip_tangential_fastsim
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls, falling_share
+    use faststrip_base_friction_table, only: mean_mu_between
     use faststrip_normal_simple_hertz, only: hertz_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_normal_strips, only: contact_strips_t
@@ -70,7 +71,8 @@ module faststrip_tangential_fastsim
         logical :: elliptic_bound = .false.     !! or the parabolic one
         logical :: single_flexibility = .false. !! or three
         type(friction_t) :: friction
-            !! how the bound falls with slip; its other parts do not count here
+            !! how the bound falls with slip, and a table over y in place of mu, which is then its
+            !! mean; other parts do not count here
     end type fastsim_variant_t
 
     !> Areas of the elements gone through so far.
@@ -268,9 +270,9 @@ contains
 
         real(wp) :: a, b, y0, l1, l2, l3, peak_bound, pmax, width, y, row, h, x, t, bound
         real(wp) :: size_squared, step, cksi, slope_x, slope_y, px, py, sx, sy, cell, place
-        real(wp) :: ahead_x, ahead_y, left, fall
+        real(wp) :: ahead_x, ahead_y, left, fall, row_bound
         integer :: i, j, state
-        logical :: is_falling
+        logical :: is_falling, varies
 
         a = ellipse%a
         b = ellipse%b
@@ -289,6 +291,7 @@ contains
         end if
         peak_bound = mu*ellipse%load/(a*width*grid_sum(nx, ny, variant%elliptic_bound))
         is_falling = falls(variant%friction)
+        varies = variant%friction%table%n > 0 .and. mu > 0.0_wp
         do i = 1, ny
             t = real(2*i - 1 - ny, wp)/ny
             y = b*t
@@ -299,6 +302,9 @@ contains
             px = 0.0_wp
             py = 0.0_wp
             left = 1.0_wp
+            row_bound = peak_bound
+            if (varies) row_bound = peak_bound/mu*mean_mu_between( &
+                variant%friction%table, mu, y0 + y - 0.5_wp*width, y0 + y + 0.5_wp*width)
             do j = 1, nx
                 x = row*real(nx - 2*j + 1, wp)/nx
                 ! Half a step from the edge to the middle of the first element.
@@ -307,7 +313,7 @@ contains
                 px = px - step*slope_x
                 py = py - step*slope_y
                 place = max((1.0_wp - t*t) - (x/a)**2, 0.0_wp)
-                bound = peak_bound*merge(sqrt(place), place, variant%elliptic_bound)
+                bound = row_bound*merge(sqrt(place), place, variant%elliptic_bound)
                 if (is_falling) bound = left*bound
                 size_squared = px*px + py*py
                 sx = 0.0_wp

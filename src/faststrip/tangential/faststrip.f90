@@ -61,6 +61,12 @@
 !>   is iterated and there is one solution, reached from adhesion. What was tuned or fitted for
 !>   constant friction (S2, S5, S6, S9, S10) takes its mean where the patch slides for the
 !>   coefficient: a first march finds it. What patches do to each other (S11) takes the static one.
+!> - **S13** **Friction across the rail** (`faststrip_base_friction_table`): each strip marches and
+!>   saturates with the mean coefficient over its width. What was tuned or fitted for one (S2, S5,
+!>   S6, S9 to S11) takes the mean of the patch by load.
+!> - **S14** **Dissimilar materials**: pressures cause slip (`pressure_slip`), which each strip has
+!>   besides the creepages; in adhesion over 1.3 to 1.4, for the springs of a bedding are too stiff
+!>   for it. What it changes of the pressures (Goodman) and of S10 is left out and estimated.
 !>
 !> `patch_law` has what the ellipse says of the strips, `strip_march` the march.
 !>
@@ -78,6 +84,7 @@ module faststrip_tangential_faststrip
     use faststrip_base_material, only: material_t, check_material, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls
+    use faststrip_base_friction_table, only: mu_at
     use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                                      check_strips
@@ -93,7 +100,8 @@ module faststrip_tangential_faststrip
     use faststrip_tangential_patch_law, only: patch_law_t, find_law, add_law, mean_law, same_law, &
                                               lateral_stiffness
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
-    use faststrip_tangential_strip_march, only: rolling_t, march_sums_t, march_strips
+    use faststrip_tangential_pressure_slip, only: slip_by_pressure
+    use faststrip_tangential_strip_march, only: rolling_t, march_sums_t, march_strips, strip_mu
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           empty_field, field_power, most_points, stick_share
     implicit none
@@ -142,7 +150,9 @@ contains
             !! filled when present; needs capacity for n strips
         logical, intent(in), optional :: with_fit !! corrected (S10)? default true
         type(friction_t), intent(in), optional :: friction
-            !! how mu falls with slip (S12); its other parts do not count here
+            !! how mu falls with slip (S12), and a table over y in place of mu, which is then its
+            !! mean (S13); of its other parts only the factor of the initial slope, which the
+            !! material has already, counts (S14)
 
         type(patch_rolling_t) :: rolling
         type(march_sums_t) :: sums
@@ -174,7 +184,12 @@ contains
 
         rolling = patch_rolling_t(mu=mu, creepage=creepage, points=points_per_strip, &
                                   mu_in_slip=mu, given=creepage)
-        if (present(friction)) rolling%friction = friction
+        rolling%pressure_slip = slip_by_pressure(material)
+        if (present(friction)) then
+            rolling%friction = friction
+            ! A softer surface is no softer under pressure.
+            rolling%pressure_slip = rolling%pressure_slip*friction%slope_factor
+        end if
         if (present(with_fit)) rolling%is_corrected = with_fit
         if (rolling%is_corrected) then
             call find_coupling(strips, material, coupling)
@@ -246,6 +261,8 @@ contains
         do while (last < strips%n)
             first = last + 1
             last = patch_end(strips, first)
+            induced%mu = patch_mu(strips, first, last, rolling)
+            induced%mu_in_slip = induced%mu
             if (coupling%n > 1) then
                 if (patch == 0) then
                     part = part + 1
@@ -255,7 +272,7 @@ contains
                 end if
                 patch = patch - 1
                 ellipse = patch_ellipse(strips, first, last)
-                call find_law(ellipse, material, rolling%mu, induced%creepage, law, status, linear)
+                call find_law(ellipse, material, induced%mu, induced%creepage, law, status, linear)
                 if (is_error(status)) return
                 induced%moment = 0.0_wp
                 if (law%weight > 0.0_wp) &
@@ -263,21 +280,40 @@ contains
                                                     lateral_stiffness(law, ellipse))
             end if
             before = sums
-            if (falls(rolling%friction)) then
-                induced%mu_in_slip = rolling%mu
-                induced%mu_in_slip = rolling%mu*share_in_slip(strips, first, last, material, &
+            if (falls(rolling%friction)) &
+                induced%mu_in_slip = induced%mu*share_in_slip(strips, first, last, material, &
                                                               induced)
-            end if
             call solve_patch(strips, first, last, material, induced, sums, status, field, &
                              per_strip)
             if (is_error(status)) return
             if (coupling%n > 1) call sum_tractions(sums%result%fx - before%result%fx, &
                                                    sums%result%fy - before%result%fy, &
-                                                   rolling%mu*ellipse%load, ellipse%a, linear, &
+                                                   induced%mu*ellipse%load, ellipse%a, linear, &
                                                    found(part))
         end do
         call approach(found(:coupling%n), tractions(:coupling%n))
     end subroutine solve_patches
+
+    !> The static coefficient of a patch, the mean by load where it varies (S13).
+    pure real(wp) function patch_mu(strips, first, last, rolling) result(mu)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        type(patch_rolling_t), intent(in) :: rolling
+
+        real(wp) :: load, part
+        integer :: k
+
+        mu = rolling%mu
+        if (rolling%friction%table%n == 0) return
+        load = 0.0_wp
+        mu = 0.0_wp
+        do k = first, last
+            part = load_of(strips, k)
+            load = load + part
+            mu = mu + part*strip_mu(strips, k, rolling%rolling_t)
+        end do
+        if (load > 0.0_wp) mu = mu/load
+    end function patch_mu
 
     !> What is left of the static coefficient where a patch slides, the mean by its bound; one where
     !> nothing slides.
@@ -332,7 +368,7 @@ contains
         if (is_error(status)) return
         if (rolling%is_corrected) call correct(strips, first, last, rolling, before, missing, &
                                        first_element, sums, field, per_strip)
-        power = work(before%result, sums%result, rolling%given)
+        power = work(before, sums, rolling%given)
         if (present(field)) call match_power(power, first_element, field)
         sums%result%friction_power = sums%result%friction_power + power
         if (present(per_strip)) then
@@ -342,13 +378,17 @@ contains
         end if
     end subroutine solve_patch
 
-    !> What the creepages feed into the forces that were added, N.
+    !> What the creepages, and the slip that pressures cause, feed into the forces that were
+    !> added, N.
     pure real(wp) function work(before, after, creepage)
-        type(tangential_result_t), intent(in) :: before, after
+        type(march_sums_t), intent(in) :: before, after
         type(creepage_t), intent(in) :: creepage
 
-        work = max(-((after%fx - before%fx)*creepage%cksi + (after%fy - before%fy)*creepage%ceta &
-                     + (after%mz - before%mz)*creepage%cphi), 0.0_wp)
+        associate (old => before%result, new => after%result)
+            work = max(-((new%fx - old%fx)*creepage%cksi + (new%fy - old%fy)*creepage%ceta &
+                         + (new%mz - old%mz)*creepage%cphi) - (after%pressed - before%pressed), &
+                       0.0_wp)
+        end associate
     end function work
 
     !> Add what the march misses of a patch or a part of it (S10), with a weight.
@@ -413,10 +453,11 @@ contains
         end associate
         sums%stuck = min(max(sums%stuck + missing(4), before%stuck), &
                          before%stuck + sums%covered - before%covered)
-        if (present(field)) call correct_field(change, first_element, field)
+        if (present(field)) call correct_field(change, first_element, rolling%rolling_t, field)
         if (.not. present(per_strip)) return
         do k = first, last
-            associate (share => load_of(strips, k)*rolling%mu_in_slip/bound)
+            associate (share => load_of(strips, k)*rolling%mu_in_slip/bound &
+                                *strip_mu(strips, k, rolling%rolling_t)/rolling%mu)
                 per_strip%fx(k) = per_strip%fx(k) + change(1)*share
                 per_strip%fy(k) = per_strip%fy(k) + change(2)*share
             end associate
@@ -432,26 +473,42 @@ contains
                              strips%y_right(k) - strips%y_left(k))
     end function load_of
 
-    !> Add forces to the elements of a patch in proportion to their loads; where they slide, the
-    !> slip turns with the traction.
-    pure subroutine correct_field(change, first, field)
+    !> Add forces to the elements of a patch in proportion to their loads and friction; where they
+    !> slide, the slip turns with the traction.
+    pure subroutine correct_field(change, first, rolling, field)
         real(wp), intent(in) :: change(2)                !! N
         integer, intent(in) :: first                     !! first element of the patch
+        type(rolling_t), intent(in) :: rolling           !! its friction, mu > 0
         type(tangential_field_t), intent(inout) :: field !! with the patch's elements last
 
-        real(wp) :: per_pressure(2), slip
+        real(wp) :: per_bound(2), slip, bound
         integer :: i
 
-        per_pressure = change/sum(field%pn(first:field%n)*field%area(first:field%n))
+        bound = 0.0_wp
+        do i = first, field%n
+            bound = bound + bound_of(i)*field%area(i)
+        end do
+        per_bound = change/bound
         do i = first, field%n
             slip = hypot(field%sx(i), field%sy(i))
-            field%px(i) = field%px(i) + per_pressure(1)*field%pn(i)
-            field%py(i) = field%py(i) + per_pressure(2)*field%pn(i)
+            field%px(i) = field%px(i) + per_bound(1)*bound_of(i)
+            field%py(i) = field%py(i) + per_bound(2)*bound_of(i)
             if (slip <= 0.0_wp) cycle
             slip = slip/max(hypot(field%px(i), field%py(i)), tiny(slip))
             field%sx(i) = -slip*field%px(i)
             field%sy(i) = -slip*field%py(i)
         end do
+
+    contains
+
+        !> The pressure, times what mu is there over the patch's.
+        pure real(wp) function bound_of(i)
+            integer, intent(in) :: i
+
+            bound_of = field%pn(i)
+            if (rolling%friction%table%n > 0) bound_of = &
+                field%pn(i)*(mu_at(rolling%friction%table, rolling%mu, field%y(i))/rolling%mu)
+        end function bound_of
     end subroutine correct_field
 
     !> March the strips of a patch with a neck; of more strips than the stack has room for, what is

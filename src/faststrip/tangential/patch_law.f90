@@ -55,7 +55,7 @@ module faststrip_tangential_patch_law
 
     !> What the strips of one patch, or of one sub-patch, share.
     type :: patch_law_t
-        real(wp) :: a = 0.0_wp   !! semi-axis of the virtual ellipse along x, mm
+        real(wp) :: a = 0.0_wp, b = 0.0_wp !! semi-axes of the virtual ellipse, mm
         real(wp) :: y = 0.0_wp   !! centroid, mm
         real(wp) :: l1 = 0.0_wp, l2 = 0.0_wp, l3 = 0.0_wp
             !! flexibilities of a strip of length 2a, mm/MPa
@@ -97,6 +97,7 @@ contains
         ab = ellipse%a*ellipse%b
         law%weight = 1.0_wp
         law%a = ellipse%a
+        law%b = ellipse%b
         law%y = ellipse%y
 
         ! Linear forces over mu N, and from them how far the patch slides and how far by spin.
@@ -168,6 +169,7 @@ contains
         type(patch_law_t), intent(inout) :: total !! the sum
 
         total%a = total%a + weight*law%a
+        total%b = total%b + weight*law%b
         total%y = total%y + weight*law%y
         total%l1 = total%l1 + weight*law%l1
         total%l2 = total%l2 + weight*law%l2

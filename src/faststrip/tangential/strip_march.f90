@@ -1,30 +1,34 @@
 !> The march in the strips of a patch, from the leading edge to the trailing one: several strips
-!> side by side, as lanes of the processor's vectors. The steps S2, S4, S6 to S9 and S12 are those
-!> of `faststrip_tangential_faststrip`.
+!> side by side, as lanes of the processor's vectors. The steps S2, S4, S6 to S9 and S12 to S14 are
+!> those of `faststrip_tangential_faststrip`.
 module faststrip_tangential_strip_march
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_limits, only: nothing
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, falls, falling_share
+    use faststrip_base_friction_table, only: mean_mu_between
     use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
     use faststrip_tangential_patch_law, only: patch_law_t
+    use faststrip_tangential_pressure_slip, only: find_pressure_slip, node_weights, bed_factor, &
+                                                  n_nodes
     use faststrip_tangential_saturation, only: saturate
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           put_element, most_points, state_adhesion, state_slip
     implicit none
     private
 
-    public :: rolling_t, march_sums_t, march_strips
+    public :: rolling_t, march_sums_t, march_strips, strip_mu
 
     ! Tuned [1]. Origin: errors against CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: slip_onset = 2.0_wp      ! S4
 
     !> What all strips of a contact share.
     type :: rolling_t
-        real(wp) :: mu = 0.0_wp      !! coefficient of friction, the static one
-        type(friction_t) :: friction !! how it falls with slip
+        real(wp) :: mu = 0.0_wp      !! coefficient of friction, static; a mean, if it varies
+        type(friction_t) :: friction !! how it falls with slip; its table over y
         type(creepage_t) :: creepage !! about the reference point
         integer :: points = 0        !! along each strip, at most `most_points`
+        real(wp) :: pressure_slip = 0.0_wp !! by unit pressure, of dissimilar materials, 1/MPa
     end type rolling_t
 
     !> Sums over the strips that were marched.
@@ -32,6 +36,7 @@ module faststrip_tangential_strip_march
         type(tangential_result_t) :: result !! forces, N, and their friction power
         real(wp) :: stuck = 0.0_wp   !! area that sticks, mm^2
         real(wp) :: covered = 0.0_wp !! area, mm^2
+        real(wp) :: pressed = 0.0_wp !! tractions times the slip that pressures cause, N
         real(wp) :: slid = 0.0_wp    !! bound where it slides, N; zero unless friction falls
         real(wp) :: slid_static = 0.0_wp !! the same without the fall, N
     end type march_sums_t
@@ -54,15 +59,26 @@ module faststrip_tangential_strip_march
         real(wp), dimension(most_lanes) :: cell           !! area of an element, mm^2
         real(wp), dimension(most_lanes) :: peak_bound, inverse_peak_bound !! mu p0, MPa
         real(wp), dimension(most_lanes) :: slope_x, slope_y0, slope_y1 !! of adhesion, MPa/mm
-        real(wp), dimension(most_lanes) :: rigid_x        !! longitudinal rigid slip
+        real(wp), dimension(most_lanes) :: rigid_x, rigid_y !! rigid slip, without spin across
         real(wp), dimension(most_lanes) :: k1, k2         !! flexibilities in slip, mm/MPa
         real(wp), dimension(most_lanes) :: onset          !! scale of 1/lambda, MPa
         real(wp), dimension(most_lanes) :: px, py         !! of the last element, MPa
         real(wp), dimension(most_lanes) :: f, step         !! lambda times step, mm/MPa; step, mm
         real(wp), dimension(most_lanes) :: excess         !! |p|^2 over the squared bound, MPa^2
         real(wp), dimension(most_lanes) :: extra_y        !! what adhesion has beyond rigid slip
+        real(wp), dimension(most_lanes) :: slope_stiffness !! (a/xd)^gamma
+        real(wp), dimension(most_lanes) :: pressed        !! tractions times slip by pressures
         real(wp), dimension(most_lanes) :: sum_x, sum_y, arm_x, sticking !! over the elements
     end type block_t
+
+    !> What pressures of dissimilar materials add in strips side by side (S14).
+    type :: pressed_t
+        real(wp), dimension(n_nodes, most_lanes) :: node_x, node_y !! slip at the nodes
+        real(wp), dimension(most_lanes) :: own            !! slip by p0
+        real(wp), dimension(most_lanes) :: slip_x, slip_y !! at the element
+        real(wp), dimension(most_lanes) :: slope_x, slope_y, rigid_x, rigid_y !! without them
+        real(wp), dimension(most_lanes) :: bed_x, bed_y   !! slopes of adhesion by unit slip, MPa/mm
+    end type pressed_t
 
     !> What falls in strips side by side.
     type :: fall_t
@@ -84,6 +100,7 @@ contains
         type(strip_forces_t), intent(inout), optional :: per_strip !! gets the strips' sums
 
         type(block_t) :: block
+        type(pressed_t) :: pressed
         real(wp) :: bound(most_points), t, thickness, off_centre
         integer :: i, points
 
@@ -104,21 +121,23 @@ contains
         off_centre = off_centre/(0.25_wp*pi*points)
         do i = first, last, most_lanes
             call fill_block(law, strips, i, min(i + most_lanes - 1, last), rolling, block)
+            if (is_pressed(rolling)) call find_pressed(law, strips, rolling, block, pressed)
             if (falls(rolling%friction)) then
-                call march_falling(block, bound(:points), strips, rolling, sums, field)
+                call march_falling(block, bound(:points), strips, rolling, pressed, sums, field)
             else
-                call march(block, bound(:points), strips, rolling%creepage, field)
+                call march(block, bound(:points), strips, rolling, pressed, field)
             end if
             call add_block(law, block, off_centre, rolling, sums, per_strip)
         end do
     end subroutine march_strips
 
     !> March all strips of a block side by side, and note the elements if they are wanted.
-    pure subroutine march(block, bound, strips, creepage, field)
+    pure subroutine march(block, bound, strips, rolling, pressed, field)
         type(block_t), intent(inout) :: block
         real(wp), intent(in) :: bound(:) !! over mu p0, at the middles of the elements
         type(contact_strips_t), intent(in) :: strips
-        type(creepage_t), intent(in) :: creepage
+        type(rolling_t), intent(in) :: rolling
+        type(pressed_t), intent(inout) :: pressed
         type(tangential_field_t), intent(inout), optional :: field
 
         real(wp), dimension(most_lanes) :: ahead_x, ahead_y
@@ -134,20 +153,23 @@ contains
                 ahead_x = block%px
                 ahead_y = block%py
             end if
-            call advance(block, t, step, bound(i), creepage%ceta, creepage%cphi)
-            if (present(field)) call note_elements(block, strips, creepage, ahead_x, ahead_y, i, &
-                                                   n, field)
+            if (is_pressed(rolling)) call press(block, t + 0.5_wp*step, pressed)
+            call advance(block, t, step, bound(i), rolling%creepage%cphi)
+            if (is_pressed(rolling)) call note_pressed(block, pressed)
+            if (present(field)) call note_elements(block, strips, rolling%creepage, ahead_x, &
+                                                   ahead_y, i, n, field)
         end do
         if (present(field)) field%n = field%n + n*block%n
     end subroutine march
 
     !> March as `march` does, with a bound that falls with slip (S12); afterwards the bound of the
     !> block is the mean of what it was.
-    pure subroutine march_falling(block, bound, strips, rolling, sums, field)
+    pure subroutine march_falling(block, bound, strips, rolling, pressed, sums, field)
         type(block_t), intent(inout) :: block
         real(wp), intent(in) :: bound(:) !! over mu p0, at the middles of the elements
         type(contact_strips_t), intent(in) :: strips
         type(rolling_t), intent(in) :: rolling
+        type(pressed_t), intent(inout) :: pressed
         type(march_sums_t), intent(inout) :: sums
         type(tangential_field_t), intent(inout), optional :: field
 
@@ -167,8 +189,10 @@ contains
             step = merge(1.0_wp, 2.0_wp, i == 1)/n
             ahead_x = block%px
             ahead_y = block%py
-            call advance(block, t, step, bound(i), rolling%creepage%ceta, rolling%creepage%cphi)
+            if (is_pressed(rolling)) call press(block, t + 0.5_wp*step, pressed)
+            call advance(block, t, step, bound(i), rolling%creepage%cphi)
             call follow_slip(block, rolling%friction, t, bound(i), fall, sums)
+            if (is_pressed(rolling)) call note_pressed(block, pressed)
             if (present(field)) call note_elements(block, strips, rolling%creepage, ahead_x, &
                                                    ahead_y, i, n, field)
         end do
@@ -243,7 +267,7 @@ contains
                     heat = 0.5_wp*block%f(k)*(px*(px + ahead_x(k)) + py*(py + ahead_y(k)))
                     if (i == n) heat = heat + 0.5_wp*(block%k1(k)*px**2 + block%k2(k)*py**2) &
                                        - 0.25_wp*length*(block%rigid_x(k)*px &
-                                                         + (creepage%ceta + x*creepage%cphi)*py)
+                                                         + (block%rigid_y(k) + x*creepage%cphi)*py)
                     lambda = max(heat, 0.0_wp)/(length*(px*px + py*py))
                 end if
                 call put_element(field, field%n + (k - 1)*n + i, x, block%y(k), block%cell(k), &
@@ -275,7 +299,7 @@ contains
                 mz = block%cell(k)*((1.0_wp + law%stretch_x*(1.0_wp - used))*block%arm_x(k) &
                      - used**4*off_centre*block%half_length(k)*block%sum_y(k)) &
                      - (block%y(k) + law%stretch_y*(1.0_wp - used)*(block%y(k) - law%y))*fx
-                if (law%sliding > 0.0_wp) then
+                if (law%sliding > 0.0_wp .and. .not. is_pressed(rolling)) then
                     call saturate(0.25_wp*pi*points*block%cell(k)*block%peak_bound(k), &
                                      block%half_length(k), block%y(k), creepage, full%fx, &
                                      full%fy, full%mz)
@@ -288,17 +312,29 @@ contains
                 result%mz = result%mz + mz
                 area = points*block%cell(k)
                 sums%covered = sums%covered + area
+                sums%pressed = sums%pressed + block%cell(k)*block%pressed(k)
                 sums%stuck = sums%stuck + area*(block%sticking(k)/points)**2
                 if (.not. present(per_strip)) cycle
                 associate (i => block%strip(k))
                     per_strip%fx(i) = fx
                     per_strip%fy(i) = fy
                     per_strip%friction_power(i) = max(-(fx*creepage%cksi + fy*creepage%ceta &
-                                                        + mz*creepage%cphi), 0.0_wp)
+                                                        + mz*creepage%cphi) &
+                                                      - block%cell(k)*block%pressed(k), 0.0_wp)
                 end associate
             end do
         end associate
     end subroutine add_block
+
+    !> The static coefficient of a strip.
+    pure real(wp) function strip_mu(strips, k, rolling)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        integer, intent(in) :: k                     !! of its strips
+        type(rolling_t), intent(in) :: rolling       !! its friction
+
+        strip_mu = mean_mu_between(rolling%friction%table, rolling%mu, strips%y_left(k), &
+                                   strips%y_right(k))
+    end function strip_mu
 
     !> The strip numbers `first` to `last` as lanes; those without load or capacity are left out.
     pure subroutine fill_block(law, strips, first, last, rolling, block)
@@ -308,7 +344,7 @@ contains
         type(rolling_t), intent(in) :: rolling
         type(block_t), intent(out) :: block
 
-        real(wp) :: flexibility, stiffness, offset, cksi
+        real(wp) :: flexibility, stiffness, offset, cksi, mu
         integer :: i, k
 
         ! At the centroid.
@@ -317,13 +353,14 @@ contains
         do i = first, last
             associate (p0 => strips%p0(i), xd => strips%half_length(i), &
                        width => strips%y_right(i) - strips%y_left(i))
-                if (rolling%mu*strip_load(p0, xd, width) <= nothing) cycle
+                mu = strip_mu(strips, i, rolling)
+                if (mu*strip_load(p0, xd, width) <= nothing) cycle
                 k = block%n + 1
                 block%n = k
                 block%strip(k) = i
                 block%half_length(k) = xd
                 block%y(k) = 0.5_wp*(strips%y_left(i) + strips%y_right(i))
-                block%peak_bound(k) = rolling%mu*p0
+                block%peak_bound(k) = mu*p0
                 block%cell(k) = 2.0_wp*xd/rolling%points*width
             end associate
         end do
@@ -340,6 +377,7 @@ contains
             flexibility = sqrt(sqrt(block%half_length(k)/law%a))
             flexibility = flexibility*sqrt(flexibility)
             stiffness = 1.0_wp/flexibility
+            block%slope_stiffness(k) = stiffness
             offset = block%y(k) - law%y
             block%slope_x(k) = (cksi/law%l1 - offset*rolling%creepage%cphi*law%spin_slope) &
                                *stiffness
@@ -357,17 +395,88 @@ contains
             block%sum_y(k) = 0.0_wp
             block%arm_x(k) = 0.0_wp
             block%sticking(k) = 0.0_wp
+            block%rigid_y(k) = rolling%creepage%ceta
+            block%pressed(k) = 0.0_wp
         end do
     end subroutine fill_block
 
+    !> Do pressures of dissimilar materials cause slip?
+    pure logical function is_pressed(rolling)
+        type(rolling_t), intent(in) :: rolling
+
+        is_pressed = abs(rolling%pressure_slip) > 0.0_wp
+    end function is_pressed
+
+    !> What pressures of dissimilar materials will do in the strips of a block (S14).
+    pure subroutine find_pressed(law, strips, rolling, block, pressed)
+        type(patch_law_t), intent(in) :: law
+        type(contact_strips_t), intent(in) :: strips
+        type(rolling_t), intent(in) :: rolling
+        type(block_t), intent(in) :: block
+        type(pressed_t), intent(out) :: pressed
+
+        real(wp) :: stiffness, factor
+        integer :: k, at
+
+        factor = bed_factor(law%a, law%b, &
+                            2.0_wp*abs(rolling%pressure_slip)*law%a/(law%l1*rolling%mu))
+        do k = 1, block%lanes
+            at = block%strip(min(k, block%n))
+            call find_pressure_slip(strips, at, rolling%pressure_slip, pressed%node_x(:, k), &
+                                    pressed%node_y(:, k))
+            pressed%own(k) = 2.0_wp*rolling%pressure_slip*strips%p0(at)
+            stiffness = block%slope_stiffness(k)/factor
+            pressed%bed_x(k) = stiffness/law%l1
+            pressed%bed_y(k) = stiffness/law%l2
+            pressed%slope_x(k) = block%slope_x(k)
+            pressed%slope_y(k) = block%slope_y0(k)
+            pressed%rigid_x(k) = block%rigid_x(k)
+            pressed%rigid_y(k) = block%rigid_y(k)
+        end do
+    end subroutine find_pressed
+
+    !> Give the next step the slip that pressures cause half way.
+    pure subroutine press(block, t, pressed)
+        type(block_t), intent(inout) :: block
+        real(wp), intent(in) :: t !! half way over half-length
+        type(pressed_t), intent(inout) :: pressed
+
+        real(wp) :: weights(n_nodes), root
+        integer :: k
+
+        weights = node_weights(t)
+        root = sqrt(1.0_wp - t*t)
+        do k = 1, block%lanes
+            pressed%slip_x(k) = sum(weights*pressed%node_x(:, k)) + root*pressed%own(k)
+            pressed%slip_y(k) = sum(weights*pressed%node_y(:, k))
+            block%slope_x(k) = pressed%slope_x(k) + pressed%bed_x(k)*pressed%slip_x(k)
+            block%slope_y0(k) = pressed%slope_y(k) + pressed%bed_y(k)*pressed%slip_y(k)
+            block%rigid_x(k) = pressed%rigid_x(k) + pressed%slip_x(k)
+            block%rigid_y(k) = pressed%rigid_y(k) + pressed%slip_y(k)
+        end do
+    end subroutine press
+
+    !> Add what tractions do on the slip that pressures cause, which is no friction power.
+    pure subroutine note_pressed(block, pressed)
+        type(block_t), intent(inout) :: block
+        type(pressed_t), intent(in) :: pressed
+
+        integer :: k
+
+        do k = 1, block%lanes
+            block%pressed(k) = block%pressed(k) + block%px(k)*pressed%slip_x(k) &
+                               + block%py(k)*pressed%slip_y(k)
+        end do
+    end subroutine note_pressed
+
     !> One element further in all lanes, from the leading edge to the trailing one: in adhesion the
     !> traction grows by the slope of adhesion; where that leaves the bound, it slides.
-    pure subroutine advance(block, t, step_per_length, bound, ceta, cphi)
+    pure subroutine advance(block, t, step_per_length, bound, cphi)
         type(block_t), intent(inout) :: block
         real(wp), intent(in) :: t              !! place of the element over half-length
         real(wp), intent(in) :: step_per_length !! from the last point on, over half-length
         real(wp), intent(in) :: bound          !! bound over mu p0
-        real(wp), intent(in) :: ceta, cphi     !! creepages
+        real(wp), intent(in) :: cphi           !! spin
 
         real(wp) :: slope_y, mean_x
         integer :: k, first
@@ -378,7 +487,7 @@ contains
             block%step(k) = block%half_length(k)*step_per_length
             slope_y = block%slope_y0(k) + block%half_length(k)*mean_x*block%slope_y1(k)
             block%extra_y(k) = block%step(k)*(block%k2(k)*slope_y &
-                                             - (ceta + block%half_length(k)*t*cphi))
+                                             - (block%rigid_y(k) + block%half_length(k)*t*cphi))
             block%px(k) = block%px(k) - block%step(k)*block%slope_x(k)
             block%py(k) = block%py(k) - block%step(k)*slope_y
             block%excess(k) = block%px(k)*block%px(k) + block%py(k)*block%py(k) &

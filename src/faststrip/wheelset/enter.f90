@@ -86,7 +86,8 @@ contains
         else if (abs(model%pair(side_right)%mark - model%pair(side_left)%mark) > 0.0_wp) then
             call refuse('a lookup table is for two wheels and rails that are alike')
         else if (model%case%friction%kind /= friction_constant .or. &
-                 model%case%friction%slope_factor < 1.0_wp) then
+                 model%case%friction%slope_factor < 1.0_wp .or. &
+                 model%case%friction%table%n > 0) then
             call refuse('a lookup table is for Coulomb friction')
         else if (needs_guide(model%case)) then
             call refuse('beyond its ends a lookup table needs strips: take normal method strip')

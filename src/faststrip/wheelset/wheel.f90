@@ -413,6 +413,8 @@ contains
         case%creepage = contact%creepage
         case%mu = friction_at_angle(model%case%friction, model%case%mu, contact%angle)
         case%friction%speed = max(contact%speed, least_speed)
+        case%friction%table%y_rail = contact%rail(1)
+        case%friction%table%angle = contact%angle
     end subroutine take_motion
 
     !> Where a point of the track is in the frame of the wheel's profile.

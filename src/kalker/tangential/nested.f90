@@ -6,6 +6,7 @@
 !> traction over the pressure, linearly between middles in contact. The fine grid's solution is
 !> the same to its tolerance wherever it starts.
 module faststrip_kalker_tangential_nested
+    use faststrip_base_friction_table, only: friction_table_t
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_base_material, only: material_t
@@ -13,7 +14,8 @@ module faststrip_kalker_tangential_nested
     use faststrip_kalker_grid, only: contact_grid_t, size_grid
     use faststrip_kalker_normal_options, only: fewest_elements
     use faststrip_kalker_tangential_newton, only: newton_t, size_newton, solve_newton
-    use faststrip_kalker_tangential_problem, only: problem_t, make_problem, release_problem
+    use faststrip_kalker_tangential_problem, only: problem_t, make_problem, release_problem, &
+                                                   find_bounds
     implicit none
     private
 
@@ -56,8 +58,8 @@ module faststrip_kalker_tangential_nested
 contains
 
     !> Put tractions of coarser grids into `newton%p`, unless the grid is coarse itself.
-    subroutine start_from_coarse(nested, newton, problem, grid, material, creepage, mu, choice, &
-                                 is_started)
+    subroutine start_from_coarse(nested, newton, problem, grid, material, creepage, mu, &
+                                 table, choice, is_started)
         type(nested_t), intent(inout) :: nested     !! needs no preparation
         type(newton_t), intent(inout) :: newton     !! sized for the fine problem
         type(problem_t), intent(in) :: problem      !! the fine one
@@ -65,6 +67,7 @@ contains
         type(material_t), intent(in) :: material    !! checked
         type(creepage_t), intent(in) :: creepage    !! checked
         real(wp), intent(in) :: mu                  !! > 0
+        type(friction_table_t), intent(in) :: table !! over y in its place, if it has places
         type(choice_t), intent(in) :: choice        !! as for the fine problem
         logical, intent(out) :: is_started          !! does `newton%p` hold a start?
 
@@ -130,7 +133,7 @@ contains
                     if (size(level%bound) < n) deallocate (level%bound)
                 end if
                 if (.not. allocated(level%bound)) allocate (level%bound(n), source=0.0_wp)
-                level%bound(:n) = mu*level%problem%pn(:n)
+                call find_bounds(level%problem, mu, table, level%bound)
                 call solve_newton(level%newton, level%problem, level%bound, .false., &
                                   choice%scaling, coarse_tolerance, choice%max_steps)
             end associate

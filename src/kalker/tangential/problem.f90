@@ -33,6 +33,7 @@
 !> bodies that were displaced before (`faststrip_kalker_tangential_history`) s = w + u - u'; u', by
 !> tractions and by pressures, is known and counts as rigid slip.
 module faststrip_kalker_tangential_problem
+    use faststrip_base_friction_table, only: friction_table_t, mean_mu_between
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: half_digits
     use faststrip_base_text, only: integer_text
@@ -53,7 +54,7 @@ module faststrip_kalker_tangential_problem
 
     public :: problem_t, make_problem, release_problem, apply_influence, node_slip
     public :: scheme_second_order, scheme_first_order, edges_sampled, edges_of_norm, are_alike
-    public :: converged
+    public :: converged, static_bound, find_bounds
 
     !> How slip is made of displacements.
     !> Given: numbers of kinds.
@@ -101,6 +102,32 @@ module faststrip_kalker_tangential_problem
     end type problem_t
 
 contains
+
+    !> What the traction of an element may be at most, if friction does not fall, MPa.
+    pure real(wp) function static_bound(problem, i, mu, table) result(bound)
+        type(problem_t), intent(in) :: problem      !! set up
+        integer, intent(in) :: i                    !! its element
+        real(wp), intent(in) :: mu                  !! coefficient of friction
+        type(friction_table_t), intent(in) :: table !! over y in its place, if it has places
+
+        associate (y => problem%y(i), half => 0.5_wp*problem%dy)
+            bound = mean_mu_between(table, mu, y - half, y + half)*problem%pn(i)
+        end associate
+    end function static_bound
+
+    !> The same of all elements.
+    pure subroutine find_bounds(problem, mu, table, bound)
+        type(problem_t), intent(in) :: problem      !! set up
+        real(wp), intent(in) :: mu                  !! coefficient of friction
+        type(friction_table_t), intent(in) :: table !! over y in its place, if it has places
+        real(wp), intent(inout) :: bound(:)         !! gets them, MPa, at least as many
+
+        integer :: i
+
+        do i = 1, problem%n
+            bound(i) = static_bound(problem, i, mu, table)
+        end do
+    end subroutine find_bounds
 
     !> Set a problem up: everything that does not change in the iteration.
     subroutine make_problem(problem, grid, material, creepage, is_rolling, scheme, edges, &

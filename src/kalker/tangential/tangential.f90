@@ -41,7 +41,7 @@ module faststrip_kalker_tangential
     use faststrip_kalker_tangential_problem, only: problem_t, make_problem, release_problem, &
                                                    scheme_second_order, scheme_first_order, &
                                                    edges_sampled, edges_of_norm, are_alike, &
-                                                   converged
+                                                   converged, static_bound, find_bounds
     implicit none
     private
 
@@ -117,7 +117,8 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
             !! filled when present; needs capacity for the elements in contact
         type(friction_t), intent(in), optional :: friction
-            !! how mu falls with slip, in rolling; its other parts do not count here
+            !! how mu falls with slip, in rolling, and a table over y in place of mu, which is then
+            !! its mean; other parts do not count here
         type(tang_history_t), intent(in), optional :: history
             !! of a shift: the step before, of the same materials; creepage and friction work are
             !! those since then
@@ -172,7 +173,7 @@ contains
                 call start_from_history(workspace, grid, history)
             if (.not. (workspace%is_solved .or. options%sticks_everywhere)) &
                 call start_from_coarse(workspace%nested, workspace%newton, workspace%problem, &
-                                       grid, material, creepage, mu, &
+                                       grid, material, creepage, mu, law%table, &
                                        choice_t(options%motion == motion_rolling, options%scheme, &
                                                 options%edges, scalings(1), options%max_steps), &
                                        workspace%is_solved)
@@ -200,7 +201,7 @@ contains
                 if (size(workspace%bound) < n) deallocate (workspace%bound)
             end if
             if (.not. allocated(workspace%bound)) allocate (workspace%bound(n), source=0.0_wp)
-            workspace%bound(:n) = mu*problem%pn(:n)
+            call find_bounds(problem, mu, friction%table, workspace%bound)
         end associate
         do
             workspace%passes = workspace%passes + 1
@@ -260,7 +261,7 @@ contains
         change = 0.0_wp
         squares = 0.0_wp
         do i = 1, workspace%problem%n
-            difference = mu*workspace%problem%pn(i) &
+            difference = static_bound(workspace%problem, i, mu, friction%table) &
                          *falling_share(friction, norm2(workspace%newton%slip(:, i))) &
                          - workspace%bound(i)
             change = change + difference**2

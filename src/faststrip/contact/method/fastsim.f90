@@ -59,16 +59,16 @@ contains
 
         variant%elliptic_bound = self%elliptic_bound
         variant%single_flexibility = self%single_flexibility
-        variant%friction = case%friction
-        material = softened(case%material, case%friction)
+        variant%friction = workspace%friction
+        material = softened(case%material, workspace%friction)
         associate (nx => case%methods%fastsim_nx, ny => case%methods%fastsim_ny)
             if (workspace%is_ellipse) then
-                call fastsim_solve(workspace%hertz, material, case%mu, case%creepage, nx, ny, &
+                call fastsim_solve(workspace%hertz, material, workspace%mu, case%creepage, nx, ny, &
                                    result%tangential, status, asked_field(workspace, case), &
                                    variant)
             else
-                call fastsim_strips_solve(workspace%strips, material, case%mu, case%creepage, nx, &
-                                          ny, result%tangential, status, &
+                call fastsim_strips_solve(workspace%strips, material, workspace%mu, &
+                                          case%creepage, nx, ny, result%tangential, status, &
                                           asked_field(workspace, case), variant)
             end if
         end associate

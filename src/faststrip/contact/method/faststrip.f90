@@ -43,10 +43,10 @@ contains
         type(status_t), intent(out) :: status                  !! of `faststrip_tangential_solve`
 
         call faststrip_tangential_solve( &
-            workspace%strips, softened(case%material, case%friction), case%mu, case%creepage, &
-            case%methods%points_per_strip, result%tangential, status, &
+            workspace%strips, softened(case%material, workspace%friction), workspace%mu, &
+            case%creepage, case%methods%points_per_strip, result%tangential, status, &
             asked_field(workspace, case), asked_strip_forces(workspace, case), &
-            self%is_corrected, case%friction)
+            self%is_corrected, workspace%friction)
     end subroutine solve_by_faststrip
 
     !> Error estimates of its forces.

@@ -97,7 +97,7 @@ contains
         if (workspace%solver%curve%n == 0) return
         call cut_creepage(case%creepage, creepage, share)
         call add_hertz_errors(workspace%hertz, misfit_of(workspace, case), &
-                              softened(case%material, case%friction), case%mu, creepage, &
+                              softened(case%material, workspace%friction), workspace%mu, creepage, &
                               errors, status)
     end subroutine add_shape_errors
 

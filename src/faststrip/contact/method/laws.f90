@@ -70,12 +70,12 @@ contains
         type(status_t), intent(out) :: status                  !! of `law_solve`
 
         if (workspace%is_ellipse) then
-            call law_solve(self%law, workspace%hertz, softened(case%material, case%friction), &
-                           case%mu, case%creepage, result%tangential, status)
+            call law_solve(self%law, workspace%hertz, softened(case%material, workspace%friction), &
+                           workspace%mu, case%creepage, result%tangential, status)
         else
             call law_strips_solve(self%law, workspace%strips, &
-                                  softened(case%material, case%friction), case%mu, case%creepage, &
-                                  result%tangential, status)
+                                  softened(case%material, workspace%friction), workspace%mu, &
+                                  case%creepage, result%tangential, status)
         end if
     end subroutine solve_by_law
 end module faststrip_contact_method_laws

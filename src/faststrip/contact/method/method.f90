@@ -7,6 +7,7 @@
 !> core is a constant: one serves all threads. One that needs memory points to it, and serves the
 !> thread whose memory it is.
 module faststrip_contact_method
+    use faststrip_base_friction, only: friction_t
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
                                      st_bad_argument
@@ -62,6 +63,7 @@ module faststrip_contact_method
             !! are residuals of the error estimates known? Of strips, Hertz and norm
         type(tangential_result_t) :: tangential = tangential_result_t()
             !! forces on the rail, friction power, stick
+        real(wp) :: mu = 0.0_wp          !! their coefficient of friction, static; the mean by load
         logical :: has_forces = .false.  !! are these known?
         logical :: knows_stick = .false. !! is the stick fraction known?
         type(force_errors_t) :: force_errors = force_errors_t() !! error estimates of the forces
@@ -97,6 +99,9 @@ module faststrip_contact_method
         type(hertz_t) :: hertz            !! of the last contact, if `is_ellipse`
         logical :: is_ellipse = .false.   !! is its patch the Hertz ellipse?
         integer :: solved_by = 0          !! normal method of the last contact; 0: none was solved
+        real(wp) :: mu = 0.0_wp           !! coefficient of friction of its forces; the mean by load
+        real(wp) :: mu_spread = 0.0_wp    !! standard deviation over it, by load
+        type(friction_t) :: friction      !! of its forces; a table is one over the contact
         type(tangential_field_t) :: field !! its elements, if asked for; see `reserve_contact_field`
         type(strip_forces_t) :: strip_forces !! sums over its strips, if asked for
         type(status_t) :: wear_status

@@ -45,9 +45,9 @@ contains
         type(contact_result_t), intent(inout) :: result        !! gets the forces
         type(status_t), intent(out) :: status                  !! of `paper_solve`
 
-        call paper_solve(workspace%strips, softened(case%material, case%friction), case%mu, &
-                         case%creepage, case%methods%points_per_strip, result%tangential, status, &
-                         asked_field(workspace, case))
+        call paper_solve(workspace%strips, softened(case%material, workspace%friction), &
+                         workspace%mu, case%creepage, case%methods%points_per_strip, &
+                         result%tangential, status, asked_field(workspace, case))
     end subroutine solve_as_printed
 
     !> Solve by TFASTSTRIP as corrected.
@@ -58,8 +58,8 @@ contains
         type(contact_result_t), intent(inout) :: result        !! gets the forces
         type(status_t), intent(out) :: status                  !! of `corrected_solve`
 
-        call corrected_solve(workspace%strips, softened(case%material, case%friction), case%mu, &
-                             case%creepage, case%methods%points_per_strip, result%tangential, &
-                             status, asked_field(workspace, case))
+        call corrected_solve(workspace%strips, softened(case%material, workspace%friction), &
+                             workspace%mu, case%creepage, case%methods%points_per_strip, &
+                             result%tangential, status, asked_field(workspace, case))
     end subroutine solve_as_corrected
 end module faststrip_contact_method_paper

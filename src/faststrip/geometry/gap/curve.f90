@@ -29,7 +29,7 @@ module faststrip_geometry_gap_curve
     public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points, copy_gap_curve
     public :: gap_at, gap_slopes, gap_curvature, level_intervals
     public :: mirror_gap_curve, valley_below
-    public :: gap_inv2r, inclination_change, largest_step, first_point_from
+    public :: gap_inv2r, gap_inclination, inclination_change, largest_step, first_point_from
 
     !> The smallest longitudinal term in use, over the geometric mean of those that are positive.
     !> Tuned [1]. Origin: chosen; lengths go with the square root.
@@ -514,14 +514,34 @@ contains
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: y              !! lateral position, mm
 
+        inv2r = between_points(curve, curve%inv2r, y)
+    end function gap_inv2r
+
+    !> How far the surfaces have turned from the tangent plane at y = 0, rad; zero if it is not
+    !> known, or without a gap.
+    pure real(wp) function gap_inclination(curve, y) result(inclination)
+        type(gap_curve_t), intent(in) :: curve !! a gap, or none
+        real(wp), intent(in) :: y              !! lateral position, mm
+
+        inclination = 0.0_wp
+        if (curve%n > 0 .and. curve%inclination_is_known) &
+            inclination = between_points(curve, curve%inclination, y)
+    end function gap_inclination
+
+    !> Values at the points, linear between them and constant beyond.
+    pure real(wp) function between_points(curve, values, y) result(value)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: values(:)
+        real(wp), intent(in) :: y
+
         integer :: i
         real(wp) :: t
 
         i = interval_of(curve, y)
         t = (y - curve%y(i))/(curve%y(i + 1) - curve%y(i))
         t = max(0.0_wp, min(1.0_wp, t))
-        inv2r = curve%inv2r(i) + t*(curve%inv2r(i + 1) - curve%inv2r(i))
-    end function gap_inv2r
+        value = values(i) + t*(values(i + 1) - values(i))
+    end function between_points
 
     !> By how much the inclination changes between two places, rad; zero if it is not known.
     pure real(wp) function inclination_change(curve, y_from, y_to) result(inclination)

@@ -5,11 +5,13 @@
 !> library is refused.
 module faststrip_interop_c_structs
     use, intrinsic :: iso_c_binding, only: c_int, c_double, c_size_t, c_ptr, c_associated, &
-                                           c_f_pointer, c_sizeof
+                                           c_f_pointer, c_null_ptr, c_sizeof
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_bad_argument
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t
+    use faststrip_base_friction_table, only: friction_table_t, most_places
     use faststrip_base_material, only: material_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: contact_methods_t
@@ -35,6 +37,9 @@ module faststrip_interop_c_structs
         integer(c_int) :: friction
         real(c_double) :: kinetic_share, half_slip_speed, speed, slope_factor, flange_share, &
                           tread_angle, flange_angle, contact_angle
+        integer(c_int) :: n_mu = 0, mu_over = 0
+        type(c_ptr) :: mu_at = c_null_ptr, mu_table = c_null_ptr
+        real(c_double) :: rail_y = 0
     end type c_case_t
 
     !> `faststrip_result` of the header; zeros unless there is one.
@@ -153,7 +158,7 @@ contains
     end function methods_of
 
     !> All of a case but its gap.
-    pure subroutine fill_case(fields, case, contact_angle)
+    subroutine fill_case(fields, case, contact_angle)
         type(c_case_t), intent(in) :: fields           !! as the caller has it
         type(contact_case_t), intent(inout) :: case    !! not yet checked
         real(c_double), intent(out) :: contact_angle   !! of a contact alone, rad
@@ -176,7 +181,28 @@ contains
                                    fields%speed, fields%slope_factor, fields%flange_share, &
                                    fields%tread_angle, fields%flange_angle)
         contact_angle = fields%contact_angle
+        call fill_table(fields, case%friction%table)
     end subroutine fill_case
+
+    ! Arrays that are missing are not finite.
+    subroutine fill_table(fields, table)
+        type(c_case_t), intent(in) :: fields
+        type(friction_table_t), intent(inout) :: table ! not yet checked
+
+        real(c_double), pointer :: numbers(:)
+
+        table%n = fields%n_mu
+        table%over = fields%mu_over
+        table%y_rail = fields%rail_y
+        table%angle = fields%contact_angle
+        if (table%n < 1 .or. table%n > most_places) return
+        table%at(:table%n) = ieee_value(table%at, ieee_quiet_nan)
+        if (.not. c_associated(fields%mu_at) .or. .not. c_associated(fields%mu_table)) return
+        call c_f_pointer(fields%mu_at, numbers, [table%n])
+        table%at(:table%n) = numbers
+        call c_f_pointer(fields%mu_table, numbers, [table%n])
+        table%mu(:table%n) = numbers
+    end subroutine fill_table
 
     !> The figures of a handle's last contact; zeros if there was none.
     pure subroutine fill_result(handle, fields)

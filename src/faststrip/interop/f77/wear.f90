@@ -7,6 +7,10 @@
 !> FRIC(5) mu on the flange over that on the tread, PAR(5); 1: they are one
 !> FRIC(6), FRIC(7) contact angles up to which the tread's counts and from which the flange's, rad
 !> FRIC(8) contact angle, rad; of wheelsets it is found, as FRIC(3)
+!> OVER     what places of friction are: 0 y of the contact, 1 y on the rail, mm, 2 contact angle
+!>          of either sign, rad (FRIC(8); of wheelsets it is found)
+!> YRAIL    y on the rail's profile at y = 0, mm, for OVER 1; of wheelsets it is found
+!> AT(N), MU(N) places, increasing, and the coefficients there; linear between, constant beyond
 !> NREG     regimes of a law of wear, up to 32; 0: none
 !> REGIM(1,I), REGIM(2,I) T gamma/A where regime I begins and ends, N/mm^2; the first at 0
 !> REGIM(3,I) constant, ug/(m mm^2), and REGIM(4,I) slope, ug/(m N), of the wear rate
@@ -17,7 +21,8 @@
 !> ```
 module faststrip_interop_f77_wear
     use, intrinsic :: iso_c_binding, only: c_int, c_double
-    use faststrip_base_status, only: is_error, st_ok, st_workspace_too_small
+    use faststrip_base_friction_table, only: friction_table_t, make_friction_table
+    use faststrip_base_status, only: status_t, is_error, st_ok, st_workspace_too_small
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_interop_f77, only: n_iwork, number_of, find_either
     use faststrip_interop_f77_wheelset, only: find_column
@@ -31,7 +36,7 @@ module faststrip_interop_f77_wear
     implicit none
     private
 
-    public :: fsfric, fswear, fsstwr, fswstw
+    public :: fsfric, fsfrtb, fswear, fsstwr, fswstw
 
 contains
 
@@ -58,6 +63,40 @@ contains
             wheelset%has = .false.
         end if
     end subroutine fsfric
+
+    !> CALL FSFRTB(IWORK, OVER, YRAIL, N, AT, MU, INFO)
+    !>
+    !> Set friction across the rail for all further calls of FSSOLV or FSWSLV, in place of PAR(5);
+    !> figures of the last solution are forgotten. FSFRIC takes it back, and comes first where it
+    !> is called too.
+    subroutine fsfrtb(iwork, over, y_rail, n, at, mu, info) bind(c, name='fsfrtb_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSINIT or FSWNEW
+        integer(c_int), intent(in) :: over           !! as above
+        real(c_double), intent(in) :: y_rail         !! as above
+        integer(c_int), intent(in) :: n              !! places, 1 to 32; 0: mu is the same
+        real(c_double), intent(in) :: at(*)          !! as above
+        real(c_double), intent(in) :: mu(*)          !! as above
+        integer(c_int), intent(out) :: info          !! status; 100: no table, nothing is changed
+
+        type(handle_t), pointer :: handle
+        type(wheelset_handle_t), pointer :: wheelset
+        type(friction_table_t) :: table
+        type(status_t) :: status
+
+        call find_either(iwork, handle, wheelset, info)
+        if (info /= st_ok) return
+        if (n /= 0) call make_friction_table(over, at(:n), mu(:n), table, status)
+        info = status%code
+        if (is_error(status)) return
+        table%y_rail = y_rail
+        if (associated(handle)) then
+            handle%case%friction%table = table
+            handle%result = contact_result_t()
+        else if (associated(wheelset)) then
+            wheelset%model%case%friction%table = table
+            wheelset%has = .false.
+        end if
+    end subroutine fsfrtb
 
     !> CALL FSWEAR(IWORK, K, NREG, REGIM, DENS, YIELD, WEAR, INFO)
     !>
