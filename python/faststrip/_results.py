@@ -61,7 +61,7 @@ class Result(Row):
     word : str
         ``ok``, or the name of the limitation: ``fallback_used``, ``edge_of_data``,
         ``fewer_strips``, ``overlap_left``, ``flat_along_x``, ``conformal``, ``target_missed``,
-        ``under_resolved``, ``more_strips``.
+        ``under_resolved``, ``more_strips``, ``not_unique``.
     <figures>
     target_is_met : bool or None
         Is it within the tolerance? None without a tolerance, and by other methods.
