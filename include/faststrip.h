@@ -50,6 +50,7 @@ enum faststrip_status {
     FASTSTRIP_MORE_STRIPS = 9,   /* more strips than were asked for gave the answer */
     FASTSTRIP_BEYOND_YIELD = 10, /* pmax is above a limit; the command line's, not given here */
     FASTSTRIP_NO_WAVE = 11,      /* a conicity: no motion about the equilibrium turns there */
+    FASTSTRIP_NOT_UNIQUE = 12,   /* other creepages with more slip carry the given force, too */
     FASTSTRIP_FIRST_ERROR = 100, /* statuses below are results */
     FASTSTRIP_BAD_ARGUMENT = 100,        /* a setting that cannot be, a pointer to nothing */
     FASTSTRIP_NOT_FINITE = 101,          /* a number is NaN or infinite */
@@ -154,6 +155,10 @@ typedef struct faststrip_case {
     double tread_angle;   /* contact angle up to which the tread's mu counts, rad, >= 0 */
     double flange_angle;  /* from which the flange's counts, rad; between both linearly */
     double contact_angle; /* of this contact, of either sign, rad; of wheelsets it is found */
+    int fx_is_given;      /* 1: given_fx instead of cksi, which must be 0 and is found */
+    int fy_is_given;      /* 1: given_fy instead of ceta, likewise; neither of wheelsets (100) */
+    double given_fx;      /* longitudinal force on the rail, N */
+    double given_fy;      /* lateral force on the rail, N; both together at most mu N (109) */
 } faststrip_case;
 
 /* Figures of one contact. Estimated errors are not negative; the depth is the penetration less the

@@ -42,6 +42,9 @@ module faststrip_contact_given_forces
     ! Tuned [1]: longest step of coordinates; mu N is 3. Origin: safeguard: from adhesion to half of
     ! mu N.
     real(wp), parameter :: longest = 0.7_wp
+    ! Tuned [1]: unsaturated force over mu N from which on methods are rough. Origin: chosen: 0.9 mu
+    ! N.
+    real(wp), parameter :: rough = 1.6_wp
     ! Tuned [solutions]. Origin: safeguard: three to twelve are taken.
     integer, parameter :: most_solutions = 40
     ! Tuned [solutions]: without coming nearer. Origin: safeguard: steps are then a 256th.
@@ -91,12 +94,15 @@ contains
         class(tangential_method_t), intent(in) :: method !! that of the case
         type(contact_result_t), intent(inout) :: result  !! gets its tangential part
         type(status_t), intent(out) :: status
-            !! those of the method; `st_out_of_range`: above mu N, or what friction that falls
-            !! carries; `st_no_convergence`; limitation `st_not_unique`
+            !! those of the method, of `check_given_forces`; `st_out_of_range`: above mu N, or what
+            !! the method gives here; `st_no_convergence`; limitation `st_not_unique`
 
         type(contact_case_t) :: tried
         type(force_map_t) :: map
 
+        call clear_status(status)
+        call check_given_forces(case%given, case%creepage, method%about, status)
+        if (is_error(status)) return
         map%is_sought = case%given%is_given
         select case (method%about%number)
         case (tangential_linear)
@@ -159,7 +165,6 @@ contains
         type(found_motion_t) :: now, best
         real(wp) :: wanted(2), left, least, step(2), found(2), slopes(2, 2), largest
         integer :: i, in_vain
-        logical :: is_down
 
         wanted = unsaturated(map, forces)
         now%slope = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
@@ -183,10 +188,7 @@ contains
             end associate
             if (i > 1) call learn(best, now)
             left = norm2(wanted - now%r)
-            ! Above what is wanted there is an answer with less slip, however forces change there.
-            is_down = min(norm2(now%r), norm2(best%r)) > norm2(wanted) &
-                      .and. norm2(now%z) < norm2(best%z)
-            if (left < least .or. is_down) then
+            if (left < least .or. is_on_the_way(best, now, wanted, falls(tried%friction))) then
                 least = left
                 best = now
                 in_vain = 0
@@ -200,7 +202,7 @@ contains
             now%z = best%z + step
         end do
         if (i > most_solutions .or. in_vain > most_in_vain) then
-            call refuse_search(falls(tried%friction), size_of(map, forces), largest, status)
+            call refuse_search(method%about%name, size_of(map, forces), largest, status)
             return
         end if
         call clear_status(status)
@@ -209,6 +211,25 @@ contains
         call find_rates(map, forces, slopes, now)
         workspace%found = now
     end subroutine search
+
+    !> Does a step near mu N lead on, however forces change over it? From above what is wanted to
+    !> less slip, from below to more; this not where friction falls, for the largest force may be
+    !> passed.
+    pure logical function is_on_the_way(best, now, wanted, is_falling)
+        type(found_motion_t), intent(in) :: best, now
+        real(wp), intent(in) :: wanted(2)
+        logical, intent(in) :: is_falling
+
+        real(wp) :: size(2), goal
+
+        size = [norm2(best%r), norm2(now%r)]
+        goal = norm2(wanted)
+        is_on_the_way = .false.
+        if (goal < rough) return
+        is_on_the_way = (all(size > goal) .and. norm2(now%z) < norm2(best%z)) .or. &
+                        (all(size < goal) .and. norm2(now%z) > norm2(best%z) &
+                         .and. .not. is_falling)
+    end function is_on_the_way
 
     !> Broyden's update: the slopes of coordinates over unsaturated forces, so that they are right
     !> between the last place and the best one.
@@ -252,18 +273,18 @@ contains
     end subroutine find_rates
 
     !> Say that no creepages carry a force, and which one is possible.
-    pure subroutine refuse_search(is_falling, asked, largest, status)
-        logical, intent(in) :: is_falling
+    pure subroutine refuse_search(name, asked, largest, status)
+        character(len=*), intent(in) :: name   ! of the method
         real(wp), intent(in) :: asked, largest ! N
         type(status_t), intent(out) :: status
 
-        if (is_falling .and. largest < asked) then
-            call set_status(status, st_out_of_range, 'friction that falls with slip carries ' // &
-                            'a force of ' // trim(number_text(largest)) // ' N at most, got ' // &
-                            trim(number_text(asked)) // ' N')
+        if (largest < asked) then
+            call set_status(status, st_out_of_range, trim(name) // ' gives a force of ' // &
+                            trim(number_text(largest)) // ' N at most here, got a given one ' // &
+                            'of ' // trim(number_text(asked)) // ' N')
         else
-            call set_status(status, st_no_convergence, 'no creepages were found for a given ' // &
-                            'force of ' // trim(number_text(asked)) // ' N')
+            call set_status(status, st_no_convergence, trim(name) // ' has no creepages that ' // &
+                            'were found for a given force of ' // trim(number_text(asked)) // ' N')
         end if
     end subroutine refuse_search
 

@@ -177,6 +177,7 @@ contains
         result%wear = wear_figures_t()
         result%tangential = tangential_result_t()
         result%force_errors = force_errors_t()
+        result%creepage_errors = 0.0_wp
         result%forces_are_estimated = .false.
         workspace%field%n = 0
         workspace%strip_forces%n = 0

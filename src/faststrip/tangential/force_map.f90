@@ -9,8 +9,8 @@
 !>     z(c) = R(F_FASTSIM(c)) + kappa u(c),   u = Kalker's linear forces over mu N,
 !>
 !> and a search for forces of a dear one runs over z, in which its own R is near z. The term with
-!> kappa makes the map unbounded where FASTSIM slides all over. A creep force law maps by itself, the
-!> linear one, which has no bound, to z = u. What is not sought, a force or a creepage that is
+!> kappa makes the map unbounded where FASTSIM slides all over. A creep force law maps by itself,
+!> the linear one, which has no bound, to z = u. What is not sought, a force or a creepage that is
 !> given, has the coordinate 0.
 module faststrip_tangential_force_map
     use faststrip_base_creepage, only: creepage_t
@@ -30,7 +30,10 @@ module faststrip_tangential_force_map
     !> Share of the linear forces in the coordinates.
     !> Tuned [1]. Origin: chosen: a tenth takes half as many solutions again near mu N, a hundredth
     !> of a tenth none less.
-    real(wp), parameter :: kappa = 0.003_wp
+    real(wp), parameter :: kappa = 0.005_wp
+    ! Tuned [1]: force over mu N at which slopes would have no bound. Origin: chosen: what methods
+    ! are rough by near mu N is not blown up.
+    real(wp), parameter :: most = 1.0_wp + 1.0e-4_wp
     ! Tuned [elements]: of FASTSIM along a row, and rows. Origin: chosen for the time: twice as many
     ! save no solution.
     integer, parameter :: points = 10, rows = 9
@@ -42,6 +45,8 @@ module faststrip_tangential_force_map
     real(wp), parameter :: near_enough = 1.0e-3_wp
     ! Tuned [steps]. Origin: safeguard: two to six are taken.
     integer, parameter :: most_steps = 40
+    ! Tuned [halvings]: of a step. Origin: safeguard: a thousandth.
+    integer, parameter :: most_halvings = 10
 
     !> A contact whose forces are sought.
     type :: force_map_t
@@ -89,8 +94,8 @@ contains
         f = hypot(r(1), r(2))
         if (f <= rounding) return
         ! A little beyond mu N by a method's own sums it goes on growing.
-        held = min(f, 1.0_wp - rounding)
-        r = r*((3.0_wp*(1.0_wp - (1.0_wp - held)**(1.0_wp/3.0_wp)) + (f - held))/f)
+        held = min(f, 1.0_wp)
+        r = r*((3.0_wp*(most**(1.0_wp/3.0_wp) - (most - held)**(1.0_wp/3.0_wp)) + (f - held))/f)
     end function unsaturated
 
     !> Find the creepages of coordinates, from some that are near; they become those that were
@@ -123,20 +128,24 @@ contains
                 if (is_error(status)) return
                 slopes(:, k) = (tried - z)/(there(k) - u(k))
             end do
+            call put_creepages(map, u, creepage)
             left = norm2(wanted - z)
             if (left <= max(part, rounding)) return
             call solve_two(slopes, wanted - z, move)
-            do k = 1, most_steps
+            do k = 1, most_halvings
                 tried = u + move
                 call coordinates(map, strips, tried, creepage, z_tried, status)
                 if (is_error(status)) return
                 if (norm2(wanted - z_tried) < left) exit
                 move = 0.5_wp*move
+                ! At a kink nothing comes nearer; slopes are about 1.
+                if (k == most_halvings - 1) move = wanted - z
             end do
-            if (k > most_steps) return
             u = tried
             z = z_tried
+            if (k > most_halvings) exit
         end do
+        call put_creepages(map, u, creepage)
     end subroutine find_creepages
 
     !> The linear forces over mu N of the creepages sought; 0 of others.
@@ -158,12 +167,8 @@ contains
         type(status_t), intent(out) :: status
 
         type(tangential_result_t) :: forces
-        real(wp) :: c(2)
 
-        c = (u - map%linear)/map%slope
-        c = max(min(c, largest_ratio), -largest_ratio)
-        if (map%is_sought(1)) creepage%cksi = c(1)
-        if (map%is_sought(2)) creepage%ceta = c(2)
+        call put_creepages(map, u, creepage)
         status = status_t()
         z = u
         if (map%law == law_linear) return
@@ -175,6 +180,20 @@ contains
         end if
         z = unsaturated(map, [forces%fx, forces%fy]) + kappa*linear_of(map, creepage)
     end subroutine coordinates
+
+    !> The creepages of linear forces over mu N.
+    pure subroutine put_creepages(map, u, creepage)
+        type(force_map_t), intent(in) :: map
+        real(wp), intent(in) :: u(2)
+        type(creepage_t), intent(inout) :: creepage ! gets those that are sought
+
+        real(wp) :: c(2)
+
+        c = (u - map%linear)/map%slope
+        c = max(min(c, largest_ratio), -largest_ratio)
+        if (map%is_sought(1)) creepage%cksi = c(1)
+        if (map%is_sought(2)) creepage%ceta = c(2)
+    end subroutine put_creepages
 
     !> Solve two equations; where they are singular, none.
     pure subroutine solve_two(a, b, x)
