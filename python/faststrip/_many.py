@@ -81,6 +81,8 @@ class ManyResult(Shown):
     y_min: Array
     y_max: Array
     x_max: Array
+    cksi: Array
+    ceta: Array
     fx: Array
     fy: Array
     mz: Array
@@ -98,6 +100,8 @@ class ManyResult(Shown):
     est_err_fx: Array
     est_err_fy: Array
     est_err_mz: Array
+    est_err_cksi: Array
+    est_err_ceta: Array
     # END figures
     est_err_target: Array
     target_is_met: npt.NDArray[np.bool_]

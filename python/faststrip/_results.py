@@ -84,6 +84,8 @@ class Result(Row):
     y_min: float
     y_max: float
     x_max: float
+    cksi: float
+    ceta: float
     fx: float
     fy: float
     mz: float
@@ -102,6 +104,8 @@ class Result(Row):
     est_err_fx: Optional[float]
     est_err_fy: Optional[float]
     est_err_mz: Optional[float]
+    est_err_cksi: Optional[float]
+    est_err_ceta: Optional[float]
     # END figures
     est_err_target: Optional[float] = None
     target_is_met: Optional[bool] = None

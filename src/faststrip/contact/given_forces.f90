@@ -3,8 +3,9 @@
 !> Sought are cksi, ceta or both, at a given spin; on the same pressures the tangential method is
 !> solved again and again. Forces fall with creepage (their symmetric derivative is negative), so
 !> with constant friction there is one answer. With spin every force below mu N is reached, at
-!> creepages that grow as `cphi sqrt(<y^2>/(2 (1 - f)))`, f = |F|/(mu N); without, f = 1 is full
-!> sliding, which any larger creepage gives too.
+!> creepages that grow as `cphi sqrt(<s^2>/(2 (1 - f)))`, f = |F|/(mu N), s the place along the
+!> force and the mean that of the load; without, f = 1 is full sliding, which any larger creepage
+!> gives too.
 !>
 !> The search runs over coordinates z of creepages in which unsaturated forces R are nearly z
 !> (`faststrip_tangential_force_map`): secant steps `dz = A (R_given - R)`, A first that of the map
@@ -22,7 +23,7 @@ module faststrip_contact_given_forces
     use faststrip_base_limits, only: rounding
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      add_limitation, number_text, st_bad_argument, st_not_finite, &
-                                     st_out_of_range, st_no_convergence, st_not_unique
+                                     st_no_convergence, st_not_unique
     use faststrip_contact_case, only: contact_case_t, given_forces_t
     use faststrip_contact_cut, only: solve_motion
     use faststrip_contact_method, only: contact_result_t, workspace_t, tangential_method_t, &
@@ -37,8 +38,12 @@ module faststrip_contact_given_forces
 
     public :: check_given_forces, solve_given_forces, estimate_given_forces
 
-    ! Tuned [1]: of forces, over mu N. Origin: chosen: a thousandth of what methods differ by.
+    ! Tuned [1]: of forces, over mu N. Origin: chosen: a thousandth of what methods differ by; a
+    ! tenth of it takes one solution more.
     real(wp), parameter :: tolerance = 1.0e-5_wp
+    ! Tuned [1]: mu N is held against so many times the given force and linear ones by what else is
+    ! given, if these are less. Origin: chosen: what is small is as exact as its size.
+    real(wp), parameter :: small = 3.0_wp
     ! Tuned [1]: longest step of coordinates; mu N is 3. Origin: safeguard: from adhesion to half of
     ! mu N.
     real(wp), parameter :: longest = 0.7_wp
@@ -94,7 +99,7 @@ contains
         class(tangential_method_t), intent(in) :: method !! that of the case
         type(contact_result_t), intent(inout) :: result  !! gets its tangential part
         type(status_t), intent(out) :: status
-            !! those of the method, of `check_given_forces`; `st_out_of_range`: above mu N, or what
+            !! those of the method, of `check_given_forces`; `st_bad_argument`: above mu N, or what
             !! the method gives here; `st_no_convergence`; limitation `st_not_unique`
 
         type(contact_case_t) :: tried
@@ -139,7 +144,7 @@ contains
         asked = size_of(map, given%force)
         if (map%force > 0.0_wp .and. (asked <= map%force*(1.0_wp + rounding) &
                                       .or. map%law == law_linear)) return
-        call set_status(status, st_out_of_range, 'a given force must not be above mu N, ' // &
+        call set_status(status, st_bad_argument, 'a given force must not be above mu N, ' // &
                         trim(number_text(map%force)) // ' N, got ' // &
                         trim(number_text(asked)) // ' N')
     end subroutine check_size
@@ -163,12 +168,16 @@ contains
         type(status_t), intent(out) :: status
 
         type(found_motion_t) :: now, best
-        real(wp) :: wanted(2), left, least, step(2), found(2), slopes(2, 2), largest
+        real(wp) :: wanted(2), left, least, step(2), found(2), slopes(2, 2), of_map(2, 2)
+        real(wp) :: largest, miss
         integer :: i, in_vain
 
         wanted = unsaturated(map, forces)
-        now%slope = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
-        if (map%law /= law_linear) now%slope = (1.0_wp + kappa)*now%slope
+        miss = tolerance*min(map%force, small*(size_of(map, forces) &
+                                               + map%force*norm2(map%linear)))
+        of_map = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
+        if (map%law /= law_linear) of_map = (1.0_wp + kappa)*of_map
+        now%slope = of_map
         if (workspace%found%is_known) now = workspace%found
         workspace%found%is_known = .false.
         now%z = now%z + matmul(now%slope, wanted - now%r)
@@ -184,7 +193,7 @@ contains
             associate (got => result%tangential)
                 now%r = unsaturated(map, [got%fx, got%fy])
                 largest = max(largest, size_of(map, [got%fx, got%fy]))
-                if (size_of(map, [got%fx, got%fy] - forces) <= tolerance*map%force) exit
+                if (size_of(map, [got%fx, got%fy] - forces) <= miss) exit
             end associate
             if (i > 1) call learn(best, now)
             left = norm2(wanted - now%r)
@@ -196,6 +205,8 @@ contains
                 best%slope = now%slope
                 in_vain = in_vain + 1
                 if (in_vain > most_in_vain) exit
+                ! What was learnt leads nowhere.
+                if (in_vain == most_in_vain/2) best%slope = of_map
             end if
             step = matmul(best%slope, wanted - best%r)
             step = step*min(1.0_wp, longest/max(norm2(step), tiny(1.0_wp)))*0.5_wp**in_vain
@@ -279,7 +290,7 @@ contains
         type(status_t), intent(out) :: status
 
         if (largest < asked) then
-            call set_status(status, st_out_of_range, trim(name) // ' gives a force of ' // &
+            call set_status(status, st_bad_argument, trim(name) // ' gives a force of ' // &
                             trim(number_text(largest)) // ' N at most here, got a given one ' // &
                             'of ' // trim(number_text(asked)) // ' N')
         else

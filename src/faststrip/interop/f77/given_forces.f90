@@ -1,8 +1,9 @@
 !> Forces given instead of creepages in the F77 interface.
 !>
 !> ```
-!> IGIV(1) 1: FGIV(1) is given, and PAR(7), which must be 0, is found     IGIV(2) of FGIV(2), PAR(8)
-!> FGIV(1) longitudinal and FGIV(2) lateral force on the rail, N
+!> IGIV(1) 1: FGIV(1) is given, and PAR(7), which must be 0, is found
+!> IGIV(2) 1: the same of FGIV(2) and PAR(8)
+!> FGIV(1), FGIV(2) longitudinal and lateral force on the rail, N
 !> CREEP(1) to CREEP(3) longitudinal and lateral creepage, spin, rad/mm
 !> CREEP(4), CREEP(5) estimated errors of the first two, 0 where they were given or are not known
 !> ```
