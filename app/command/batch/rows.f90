@@ -23,7 +23,8 @@ module faststrip_command_batch_rows
     implicit none
     private
 
-    public :: case_columns, penetration_column, given_columns, row_columns_t, find_columns, solve_row
+    public :: case_columns, penetration_column, given_columns, row_columns_t
+    public :: find_columns, solve_row
 
     !> What a table of contacts must have.
     character(len=*), parameter :: case_columns(9) = [character(len=15) :: &

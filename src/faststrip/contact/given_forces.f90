@@ -50,7 +50,7 @@ module faststrip_contact_given_forces
     ! Tuned [1]: unsaturated force over mu N from which on methods are rough. Origin: chosen: 0.9 mu
     ! N.
     real(wp), parameter :: rough = 1.6_wp
-    ! Tuned [solutions]. Origin: safeguard: three to twelve are taken.
+    ! Tuned [solutions]: of a search. Origin: safeguard: three to twelve are taken.
     integer, parameter :: most_solutions = 40
     ! Tuned [solutions]: without coming nearer. Origin: safeguard: steps are then a 256th.
     integer, parameter :: most_in_vain = 8

@@ -43,7 +43,7 @@ module faststrip_tangential_force_map
     ! Tuned [1]: part of the way within which a place is found. Origin: chosen: what is left is no
     ! error, for a search takes the place that was found.
     real(wp), parameter :: near_enough = 1.0e-3_wp
-    ! Tuned [steps]. Origin: safeguard: two to six are taken.
+    ! Tuned [steps]: of Newton's method. Origin: safeguard: two to six are taken.
     integer, parameter :: most_steps = 40
     ! Tuned [halvings]: of a step. Origin: safeguard: a thousandth.
     integer, parameter :: most_halvings = 10
