@@ -54,9 +54,12 @@ module faststrip_contact_given_forces
     integer, parameter :: most_solutions = 40
     ! Tuned [solutions]: without coming nearer. Origin: safeguard: steps are then a 256th.
     integer, parameter :: most_in_vain = 8
-    ! Tuned [1]: change that is believed, over that of the slopes so far, at least. Origin:
-    ! safeguard: slopes grow to ten times in a step at most.
-    real(wp), parameter :: least_change = 0.1_wp
+    ! Tuned [1]: of forces, over mu N, that methods jump by at a creepage. Origin: measured:
+    ! FASTSTRIP does by 1e-4 at some creepages.
+    real(wp), parameter :: jump = 5.0e-4_wp
+    ! Tuned [1]: change that is believed, over that of the slopes so far, at least and at most.
+    ! Origin: safeguard.
+    real(wp), parameter :: least_change = 0.1_wp, most_change = 4.0_wp
 
 contains
 
@@ -168,9 +171,11 @@ contains
         type(status_t), intent(out) :: status
 
         type(found_motion_t) :: now, best
+        type(creepage_t) :: best_creepage
         real(wp) :: wanted(2), left, least, step(2), found(2), slopes(2, 2), of_map(2, 2)
         real(wp) :: largest, miss
         integer :: i, in_vain
+        logical :: is_flat, is_found
 
         wanted = unsaturated(map, forces)
         miss = tolerance*min(map%force, small*(size_of(map, forces) &
@@ -193,13 +198,17 @@ contains
             associate (got => result%tangential)
                 now%r = unsaturated(map, [got%fx, got%fy])
                 largest = max(largest, size_of(map, [got%fx, got%fy]))
-                if (size_of(map, [got%fx, got%fy] - forces) <= miss) exit
+                is_found = size_of(map, [got%fx, got%fy] - forces) <= miss
             end associate
-            if (i > 1) call learn(best, now)
+            if (is_found) exit
+            is_flat = .false.
+            if (i > 1) call learn(best, now, is_flat)
             left = norm2(wanted - now%r)
             if (left < least .or. is_on_the_way(best, now, wanted, falls(tried%friction))) then
                 least = left
                 best = now
+                if (is_flat) best%slope = 2.0_wp*best%slope
+                best_creepage = tried%creepage
                 in_vain = 0
             else
                 best%slope = now%slope
@@ -212,7 +221,17 @@ contains
             step = step*min(1.0_wp, longest/max(norm2(step), tiny(1.0_wp)))*0.5_wp**in_vain
             now%z = best%z + step
         end do
-        if (i > most_solutions .or. in_vain > most_in_vain) then
+        if (.not. is_found) then
+            ! Where forces jump, the nearer side.
+            now = best
+            tried%creepage = best_creepage
+            call solve_motion(workspace, tried, method, result, status)
+            if (is_error(status)) return
+            associate (got => result%tangential)
+                is_found = size_of(map, [got%fx, got%fy] - forces) <= jump*map%force
+            end associate
+        end if
+        if (.not. is_found) then
             call refuse_search(method%about%name, size_of(map, forces), largest, status)
             return
         end if
@@ -244,21 +263,24 @@ contains
 
     !> Broyden's update: the slopes of coordinates over unsaturated forces, so that they are right
     !> between the last place and the best one.
-    pure subroutine learn(best, now)
+    pure subroutine learn(best, now, is_flat)
         type(found_motion_t), intent(in) :: best
-        type(found_motion_t), intent(inout) :: now ! its slope is the last one
+        type(found_motion_t), intent(inout) :: now ! gets the slopes
+        logical, intent(out) :: is_flat            ! has hardly anything changed?
 
-        real(wp) :: dz(2), changed(2), along
+        real(wp) :: dz(2), changed(2), along, square
 
         dz = now%z - best%z
         changed = matmul(best%slope, now%r - best%r)
         along = dot_product(dz, changed)
-        if (along > least_change*dot_product(dz, dz)) then
+        square = dot_product(dz, dz)
+        is_flat = along <= least_change*square
+        now%slope = best%slope
+        if (along >= most_change*square) then
+            now%slope = 0.5_wp*best%slope
+        else if (.not. is_flat) then
             now%slope = best%slope + spread(dz - changed, 2, 2) &
                         *spread(matmul(dz, best%slope), 1, 2)/along
-        else
-            ! Hardly anything has changed: longer steps.
-            now%slope = 2.0_wp*best%slope
         end if
     end subroutine learn
 
