@@ -185,7 +185,7 @@ contains
         now%slope = of_map
         if (workspace%found%is_known) now = workspace%found
         workspace%found%is_known = .false.
-        now%z = now%z + matmul(now%slope, wanted - now%r)
+        now%z = now%z + product_of(now%slope, wanted - now%r)
         best = now
         least = huge(1.0_wp)
         largest = 0.0_wp
@@ -217,7 +217,7 @@ contains
                 ! What was learnt leads nowhere.
                 if (in_vain == most_in_vain/2) best%slope = of_map
             end if
-            step = matmul(best%slope, wanted - best%r)
+            step = product_of(best%slope, wanted - best%r)
             step = step*min(1.0_wp, longest/max(norm2(step), tiny(1.0_wp)))*0.5_wp**in_vain
             now%z = best%z + step
         end do
@@ -269,9 +269,10 @@ contains
         logical, intent(out) :: is_flat            ! has hardly anything changed?
 
         real(wp) :: dz(2), changed(2), along, square
+        integer :: k
 
         dz = now%z - best%z
-        changed = matmul(best%slope, now%r - best%r)
+        changed = product_of(best%slope, now%r - best%r)
         along = dot_product(dz, changed)
         square = dot_product(dz, dz)
         is_flat = along <= least_change*square
@@ -279,8 +280,10 @@ contains
         if (along >= most_change*square) then
             now%slope = 0.5_wp*best%slope
         else if (.not. is_flat) then
-            now%slope = best%slope + spread(dz - changed, 2, 2) &
-                        *spread(matmul(dz, best%slope), 1, 2)/along
+            do k = 1, 2
+                now%slope(:, k) = best%slope(:, k) &
+                                  + (dz - changed)*(dot_product(dz, best%slope(:, k))/along)
+            end do
         end if
     end subroutine learn
 
@@ -299,11 +302,19 @@ contains
             near = forces
             ! Inwards: there is no force above mu N.
             near(k) = forces(k) - sign(step, forces(k))
-            call solve_two(slopes, matmul(now%slope, unsaturated(map, near) &
-                                          - unsaturated(map, forces)), u)
+            call solve_two(slopes, product_of(now%slope, unsaturated(map, near) &
+                                              - unsaturated(map, forces)), u)
             now%rates(:, k) = merge(u/(map%slope*(near(k) - forces(k))), 0.0_wp, map%is_sought)
         end do
     end subroutine find_rates
+
+    !> A matrix times a vector: without optimization the intrinsic one allocates.
+    pure function product_of(a, x) result(y)
+        real(wp), intent(in) :: a(2, 2), x(2)
+        real(wp) :: y(2)
+
+        y = a(:, 1)*x(1) + a(:, 2)*x(2)
+    end function product_of
 
     !> Say that no creepages carry a force, and which one is possible.
     pure subroutine refuse_search(name, asked, largest, status)
@@ -356,7 +367,8 @@ contains
         if (.not. result%forces_are_estimated) return
         associate (errors => result%force_errors)
             result%creepage_errors = case%mu*result%normal%load &
-                                     *matmul(abs(workspace%found%rates), [errors%fx, errors%fy])
+                                     *product_of(abs(workspace%found%rates), &
+                                                 [errors%fx, errors%fy])
         end associate
     end subroutine estimate_given_forces
 end module faststrip_contact_given_forces
