@@ -50,6 +50,7 @@ enum faststrip_status {
     FASTSTRIP_MORE_STRIPS = 9,   /* more strips than were asked for gave the answer */
     FASTSTRIP_BEYOND_YIELD = 10, /* pmax is above a limit; the command line's, not given here */
     FASTSTRIP_NO_WAVE = 11,      /* a conicity: no motion about the equilibrium turns there */
+    FASTSTRIP_NOT_UNIQUE = 12,   /* other creepages with more slip carry the given force, too */
     FASTSTRIP_FIRST_ERROR = 100, /* statuses below are results */
     FASTSTRIP_BAD_ARGUMENT = 100,        /* a setting that cannot be, a pointer to nothing */
     FASTSTRIP_NOT_FINITE = 101,          /* a number is NaN or infinite */
@@ -167,6 +168,10 @@ typedef struct faststrip_case {
     const double *mu_at;  /* n_mu places, increasing, mm or rad; read in the call that is made */
     const double *mu_table; /* mu there, in place of mu: linear between, constant beyond */
     double rail_y;        /* y on the rail's profile at y = 0, mm; of wheelsets it is found */
+    int fx_is_given;      /* 1: given_fx instead of cksi, which must be 0 and is found */
+    int fy_is_given;      /* 1: given_fy instead of ceta, likewise; neither of wheelsets (100) */
+    double given_fx;      /* longitudinal force on the rail, N */
+    double given_fy;      /* lateral force on the rail, N; both together at most mu N (100) */
 } faststrip_case;
 
 /* Figures of one contact. Estimated errors are not negative; the depth is the penetration less the
@@ -180,6 +185,8 @@ typedef struct faststrip_result {
     double y_min;           /* least y of the contact, mm */
     double y_max;           /* largest y of the contact, mm */
     double x_max;           /* largest half-length of the contact, along x, mm */
+    double cksi;            /* longitudinal creepage */
+    double ceta;            /* lateral creepage */
     double fx;              /* longitudinal force on the rail, N */
     double fy;              /* lateral force on the rail, in the contact plane, N */
     double mz;              /* moment on the rail about the reference point, N mm */
@@ -204,6 +211,8 @@ typedef struct faststrip_result {
     double est_err_fx;      /* estimated error of Fx over mu N */
     double est_err_fy;      /* estimated error of Fy over mu N */
     double est_err_mz;      /* estimated error of Mz over mu N sqrt(area/pi) */
+    double est_err_cksi;    /* estimated error of cksi, 0 where it is given */
+    double est_err_ceta;    /* estimated error of ceta, 0 where it is given */
     int n_steps;            /* steps that FASTSTRIP_NORMAL_AUTO took, of other methods 0 */
     int best_step;          /* the one whose solution this is, from 1 on; 0: none */
     int target_is_known;    /* 1: est_err_target is known; 0: zero */

@@ -15,7 +15,7 @@ SHIFT_TOLERANCE = 1e-6  # mm; two shifts closer than this are the same case
 # status words of rows with a result: all well, or a limitation that has a name
 RESULTS = ("ok", "fallback_used", "edge_of_data", "fewer_strips", "overlap_left", "flat_along_x",
            "conformal", "target_missed", "under_resolved", "more_strips",
-           "beyond_yield", "no_wave")
+           "beyond_yield", "no_wave", "not_unique")
 LOAD_TOLERANCE = 0.01  # relative; a larger difference means the cases are not the same
 
 

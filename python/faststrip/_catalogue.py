@@ -47,6 +47,8 @@ QUANTITIES: Dict[str, Tuple[str, str, str]] = {
     "fatigue_index": ("1", "surface-fatigue index", "yield in shear"),
     "mass": ("ug m-1", "wear, mass per distance rolled", "wear law"),
     "volume": ("mm3 m-1", "wear, volume per distance rolled", "wear law"),
+    "est_err_cksi": ("1", "estimated error of cksi, 0 where it is given", "force errors"),
+    "est_err_ceta": ("1", "estimated error of ceta, 0 where it is given", "force errors"),
     "patch": ("1", "number of the patch", ""),
     "x": ("mm", "x, along the rolling direction", ""),
     "y": ("mm", "y, across the rolling direction", ""),
@@ -133,6 +135,8 @@ class Case(ctypes.Structure):
         *members(c_int, "n_mu", "mu_over"),
         *members(c_void_p, "mu_at", "mu_table"),
         *members(c_double, "rail_y"),
+        *members(c_int, "fx_is_given", "fy_is_given"),
+        *members(c_double, "given_fx", "given_fy"),
     ]
 
 
@@ -141,14 +145,15 @@ class Figures(ctypes.Structure):
 
     _fields_ = [
         *members(c_size_t, "size"),
-        *members(c_double, "load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx",
-                 "fy", "mz", "friction_power", "stick_fraction"),
+        *members(c_double, "load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "cksi",
+                 "ceta", "fx", "fy", "mz", "friction_power", "stick_fraction"),
         *members(c_int, "n_patches", "n_strips", "n_elements", "iterations", "is_estimated",
                  "strips_across"),
         *members(c_double, "est_err_penetration", "est_err_pmax", "est_err_area", "residual_inside",
                  "overlap_outside"),
         *members(c_int, "forces_are_estimated", "limitations"),
-        *members(c_double, "est_err_fx", "est_err_fy", "est_err_mz"),
+        *members(c_double, "est_err_fx", "est_err_fy", "est_err_mz", "est_err_cksi",
+                 "est_err_ceta"),
         *members(c_int, "n_steps", "best_step", "target_is_known", "target_is_met"),
         *members(c_double, "est_err_target"),
     ]

@@ -124,9 +124,12 @@ class Material:
         return 2.0 / (1.0 / wheel + 1.0 / rail)
 
 
+# Of `Contact.solve`: creepages are given.
+NO_FORCES = None, None
+
 # What a result takes from the library's struct: by its names, whatever their order there.
 ESTIMATES = 5
-OF_FORCES = 3
+OF_FORCES = 5
 _names = [one.name for one in fields(Result) if one.default is MISSING]
 _figures_of = operator.attrgetter(*_names[2:-ESTIMATES - OF_FORCES])
 _estimates_of = operator.attrgetter(*_names[-ESTIMATES - OF_FORCES:-OF_FORCES])
@@ -147,6 +150,7 @@ def number_of(names: Dict[str, int], name: Any, what: str) -> int:
 MATERIAL_NAMES = "material.e_wheel", "material.e_rail", "material.nu_wheel", "material.nu_rail"
 CREEPAGE_NAMES = "creepage[0]", "creepage[1]", "creepage[2]"
 MOTION_NAMES = "speed", "contact_angle", "rail_y"
+FORCE_NAMES = "forces[0]", "forces[1]"
 FASTSIM_NAMES = ("a", "b", "shear_modulus", "coefficients[0]", "coefficients[1]",
                  "coefficients[2]", *CREEPAGE_NAMES, "mu", "load")
 
@@ -195,6 +199,14 @@ def _material_of(material: Any) -> List[float]:
         raise refused("material", "a faststrip.Material", material)
     return numbers(MATERIAL_NAMES, (material.e_wheel, material.e_rail, material.nu_wheel,
                                     material.nu_rail))
+
+
+def give_forces(case: Case, forces: Any) -> None:
+    """Put forces that are given in place of creepages into a case."""
+    fx, fy = several("forces", forces, "longitudinal and lateral, a number or None", (2,))
+    case.fx_is_given, case.fy_is_given = fx is not None, fy is not None
+    case.given_fx, case.given_fy = numbers(
+        FORCE_NAMES, (0.0 if fx is None else fx, 0.0 if fy is None else fy))
 
 
 def _three_creepages(creepage: Any) -> Tuple[Any, ...]:
@@ -419,7 +431,8 @@ class Contact:
                    long=points.size > LONG_GAP, keep=(points, others))
 
     def solve(self, *, load: Optional[float] = None, penetration: Optional[float] = None,
-              creepage: Tuple[float, float, float] = (0.0, 0.0, 0.0), mu: float = 0.3,
+              creepage: Tuple[float, float, float] = (0.0, 0.0, 0.0),
+              forces: Tuple[Optional[float], Optional[float]] = NO_FORCES, mu: float = 0.3,
               material: Material = Material(), friction: Friction = CONSTANT, speed: float = 0.0,
               contact_angle: float = 0.0, rail_y: float = 0.0, warm_start: bool = False,
               target: Optional[str] = None, tolerance: Optional[float] = None,
@@ -434,6 +447,9 @@ class Contact:
             From h = 0, mm.
         creepage : three floats
             Longitudinal, lateral and spin (rad/mm) creepage about y = 0.
+        forces : two floats or None
+            Longitudinal and lateral force on the rail, N, in place of a creepage, which must be 0
+            and is found: cksi and ceta of the result.
         mu : float
             Coefficient of friction.
         material : Material
@@ -484,6 +500,8 @@ class Contact:
         case.load = 0.0 if load is None else number("load", load)
         case.penetration = 0.0 if penetration is None else number("penetration", penetration)
         case.cksi, case.ceta, case.cphi = numbers(CREEPAGE_NAMES, _three_creepages(creepage))
+        if forces is not NO_FORCES or case.fx_is_given or case.fy_is_given:
+            give_forces(case, forces)
         case.mu = number("mu", mu)
         if material is not self._material:
             take_material(case, material)

@@ -12,11 +12,13 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import array, flag, refused, whole
+from ._arguments import array, flag, refused, several, whole
 from ._catalogue import QUANTITIES, Case, Figures
 from ._contact import (
     CREEPAGE_NAMES,
+    FORCE_NAMES,
     GAP_POINTS,
+    NO_FORCES,
     Contact,
     Material,
     new_case,
@@ -79,6 +81,8 @@ class ManyResult(Shown):
     y_min: Array
     y_max: Array
     x_max: Array
+    cksi: Array
+    ceta: Array
     fx: Array
     fy: Array
     mz: Array
@@ -96,6 +100,8 @@ class ManyResult(Shown):
     est_err_fx: Array
     est_err_fy: Array
     est_err_mz: Array
+    est_err_cksi: Array
+    est_err_ceta: Array
     # END figures
     est_err_target: Array
     target_is_met: npt.NDArray[np.bool_]
@@ -274,6 +280,7 @@ def cores() -> int:
 
 def solve_many(gaps: Any, *, load: Optional[npt.ArrayLike] = None,
                penetration: Optional[npt.ArrayLike] = None, creepage: Any = (0.0, 0.0, 0.0),
+               forces: Tuple[Optional[npt.ArrayLike], Optional[npt.ArrayLike]] = NO_FORCES,
                mu: npt.ArrayLike = 0.3, material: Material = STEEL,
                friction: Friction = CONSTANT, speed: npt.ArrayLike = 0.0,
                contact_angle: npt.ArrayLike = 0.0, rail_y: npt.ArrayLike = 0.0,
@@ -302,6 +309,9 @@ def solve_many(gaps: Any, *, load: Optional[npt.ArrayLike] = None,
         N, mm; one of the two.
     creepage : three array_like, or ndarray of shape (..., 3)
         Longitudinal, lateral and spin (rad/mm) creepage about y = 0.
+    forces : two array_like or None
+        Longitudinal and lateral force on the rail, N, in place of a creepage, which must be 0 and
+        is found.
     mu : array_like
         Coefficient of friction.
     speed, contact_angle, rail_y : array_like
@@ -359,6 +369,13 @@ estimate, resolution_limit, force_limit, target, tolerance, budget_us
     values = [array(name, value) for name, value in zip(told, (
         load if case.by_load else penetration, *_creepages(creepage), mu, speed, contact_angle,
         rail_y))]
+    fx, fy = several("forces", forces, "longitudinal and lateral, arrays or None", (2,))
+    case.fx_is_given, case.fy_is_given = fx is not None, fy is not None
+    for name, alias, value in zip(("given_fx", "given_fy"), FORCE_NAMES, (fx, fy)):
+        if value is not None:
+            names.append(name)
+            told.append(alias)
+            values.append(array(alias, value))
     try:
         shape = np.broadcast_shapes(table.shape, *(value.shape for value in values))
     except ValueError:

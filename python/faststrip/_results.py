@@ -61,7 +61,7 @@ class Result(Row):
     word : str
         ``ok``, or the name of the limitation: ``fallback_used``, ``edge_of_data``,
         ``fewer_strips``, ``overlap_left``, ``flat_along_x``, ``conformal``, ``target_missed``,
-        ``under_resolved``, ``more_strips``.
+        ``under_resolved``, ``more_strips``, ``not_unique``.
     <figures>
     target_is_met : bool or None
         Is it within the tolerance? None without a tolerance, and by other methods.
@@ -84,6 +84,8 @@ class Result(Row):
     y_min: float
     y_max: float
     x_max: float
+    cksi: float
+    ceta: float
     fx: float
     fy: float
     mz: float
@@ -102,6 +104,8 @@ class Result(Row):
     est_err_fx: Optional[float]
     est_err_fy: Optional[float]
     est_err_mz: Optional[float]
+    est_err_cksi: Optional[float]
+    est_err_ceta: Optional[float]
     # END figures
     est_err_target: Optional[float] = None
     target_is_met: Optional[bool] = None

@@ -37,6 +37,8 @@ module faststrip_files_columns
         column_t('initial_slope_factor', holds_numbers, 'factor of the initial slope'), &
         column_t('speed_mm_s', holds_numbers, 'rolling speed'), &
         column_t('given_penetration_mm', holds_numbers, 'penetration that was given'), &
+        column_t('given_Fx_N', holds_numbers, 'longitudinal force that was given'), &
+        column_t('given_Fy_N', holds_numbers, 'lateral force that was given'), &
         column_t('yw_mm', holds_numbers, 'lateral shift of the wheel'), &
         column_t('gamma_rad', holds_numbers, 'contact angle'), &
         column_t('cksi', holds_numbers, 'longitudinal creepage', 'cksi'), &

@@ -24,8 +24,9 @@ RESULT_COLUMNS = (
     "status,penetration_mm,area_mm2,pmax_MPa,ymin_mm,ymax_mm,xmax_mm,n_patches,Fx_N,Fy_N,"
     "Mz_Nmm,friction_power_N,stick_fraction,normal_us,tangential_us,residual_inside,"
     "overlap_outside,est_err_penetration,est_err_pmax,est_err_area,est_err_Fx,est_err_Fy,"
-    "est_err_Mz,gap_change_um,choice,strips_across,limitations,t_gamma_N,t_gamma_spin_N,"
-    "t_gamma_per_area_N_per_mm2,fatigue_index,wear_ug_per_m,wear_mm3_per_m"
+    "est_err_Mz,est_err_cksi,est_err_ceta,gap_change_um,choice,strips_across,limitations,"
+    "t_gamma_N,t_gamma_spin_N,t_gamma_per_area_N_per_mm2,fatigue_index,wear_ug_per_m,"
+    "wear_mm3_per_m"
 ).split(",")
 
 # What does not change from run to run and is no status.

@@ -141,6 +141,12 @@ contains
         call add(figures%normal_errors%est_err_pmax)
         call add(figures%normal_errors%est_err_area)
         call add(figures%normal_errors%overlap_outside)
+        case%given%is_given = .true.
+        case%given%force = [1.0e4_wp, -5.0e3_wp]
+        call solve_contact_forces(here%contact, case, figures, status)
+        code = max(code, status%code)
+        call add(figures%creepage%cksi)
+        case%given%is_given = .false.
         case%creepage = creepage_t(1.0e-3_wp, -5.0e-4_wp, 1.0e-4_wp)
         case%methods%normal = normal_auto
         call set_contact_gap(here%wanted, gap%y, gap%h, gap%inv2r, status)

@@ -18,6 +18,8 @@ SOLVERS = ("strip_solve", "strip_solve_demand", "strip_solve_penetration", r"her
 STUDIES = {
     # procedures without a workspace
     "src/faststrip/interop/classic.f90",
+    # a map of creepages, from which searches of forces start
+    "src/faststrip/tangential/force_map.f90",
     *(f"app/lab/{path}.f90" for path in (
         # a solver alone: its times from the last solution on, its floating-point flags, rounding
         "grid/normal", "grid/steps", "fuzz/run", "extremes/noise",
@@ -51,7 +53,8 @@ class OneContact(unittest.TestCase):
     def test_types_are_found(self):
         found = {name: base for _, name, base, _ in types()}
         self.assertGreater(len(found), 60)
-        self.assertEqual(found["contact_case_t"], "demand_t")
+        self.assertEqual(found["contact_terms_t"], "demand_t")
+        self.assertEqual(found["contact_case_t"], "contact_terms_t")
         self.assertEqual(found["case_t"], "settings_t")
         for name in ("settings_t", "prepared_case_t", "bench_case_t",
                      "fuzz_case_t"):

@@ -186,14 +186,16 @@ def written(program):
         f77 = between(f77, begin, end, of_f77(read[ROWS], row, told))
     members = [name for kind, name, _ in structs["Figures"][1]
                if name in told and name not in ("limitations", "est_err_target")]
+    # Of wheelsets the motion gives the creepages, which have members of their own.
+    moved = [one for one in members if "cksi" not in one and "ceta" not in one]
     plain = "float", "Optional[float]", "int"
     classes = {}
     for name, part, names, kinds in (
             ("_results", "figures", members, plain),
             ("_many", "figures", [one for one in members if one != "n_elements"],
              ("Array", "Array", "Whole")),
-            ("_wheelset", "figures", members[:members.index("n_patches")], plain),
-            ("_wheelset", "errors", [one for one in members if one.startswith("est_err")], plain)):
+            ("_wheelset", "figures", moved[:moved.index("n_patches")], plain),
+            ("_wheelset", "errors", [one for one in moved if one.startswith("est_err")], plain)):
         name = f"python/faststrip/{name}.py"
         text = classes.get(name) or (ROOT / name).read_text(encoding="utf-8")
         classes[name] = between(text, f"    # BEGIN {part}, written by tools/generate/columns.py\n",

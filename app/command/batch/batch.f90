@@ -16,7 +16,8 @@ module faststrip_command_batch
                                    find_row_place, close_stream, scan_csv, collect_csv, collected, &
                                    collected_length, forget_collected, put_cell, end_row
     use faststrip_files_lines, only: place_t
-    use faststrip_command_batch_rows, only: case_columns, penetration_column, row_columns_t, &
+    use faststrip_command_batch_rows, only: case_columns, penetration_column, given_columns, &
+                                            row_columns_t, &
                                             find_columns, solve_row
     use faststrip_command_batch_worker, only: worker_t, make_workers, release_workers
     use faststrip_command_program_clock, only: microseconds
@@ -146,7 +147,9 @@ contains
                 // 'case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm (wheel and rail' &
                 // ' alike;' // new_line('a') // 'gap_file relative to the CSV file). A row with' &
                 // ' a number in the further column' // new_line('a') // penetration_column &
-                // ' is solved for it; its N_N is then empty, and filled in.' // new_line('a') &
+                // ' is solved for it; its N_N is then empty, and filled in. The same of' &
+                // new_line('a') // given_columns(1) // ' and cksi, ' // given_columns(2) &
+                // ' and ceta.' // new_line('a') &
                 // 'Columns friction_kind, mu_kinetic, half_slip_speed_mm_s,' &
                 // ' initial_slope_factor,' // new_line('a') // 'speed_mm_s: as in &friction and' &
                 // ' &motion of a case file, mu being the static value.' // new_line('a') &

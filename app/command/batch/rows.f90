@@ -23,7 +23,8 @@ module faststrip_command_batch_rows
     implicit none
     private
 
-    public :: case_columns, penetration_column, row_columns_t, find_columns, solve_row
+    public :: case_columns, penetration_column, given_columns, row_columns_t
+    public :: find_columns, solve_row
 
     !> What a table of contacts must have.
     character(len=*), parameter :: case_columns(9) = [character(len=15) :: &
@@ -31,12 +32,16 @@ module faststrip_command_batch_rows
     integer, parameter :: gap_column = 2, load_column = 6 ! Given: of `case_columns`
     !> A column that it may have: penetrations instead of loads.
     character(len=*), parameter :: penetration_column = 'given_penetration_mm'
+    !> Columns that it may have: forces instead of cksi and ceta.
+    character(len=*), parameter :: given_columns(2) = ['given_Fx_N', 'given_Fy_N']
+    integer, parameter :: creepage_columns(2) = [7, 8] ! Given: of `case_columns`
 
     !> Where the columns are.
     type :: row_columns_t
         private
         integer :: of(size(case_columns)) = 0
         integer :: penetration = 0 ! 0: there is none
+        integer :: given(2) = 0    ! the same
         logical :: has_friction = .false. ! is there one of `friction_columns`?
     end type row_columns_t
 
@@ -57,6 +62,10 @@ contains
         end do
         columns%penetration = column_index(table, penetration_column)
         call refuse_misspelt(table, penetration_column, case_columns, status)
+        do i = 1, size(given_columns)
+            columns%given(i) = column_index(table, given_columns(i))
+            call refuse_misspelt(table, given_columns(i), case_columns, status)
+        end do
         do i = 1, size(friction_columns)
             ! Without a kind of friction the others are carried through.
             if (i > 1 .and. column_index(table, friction_columns(1)) == 0) exit
@@ -92,6 +101,7 @@ contains
         type(ready_gap_t), pointer :: ready
         type(doubts_t) :: doubts
         integer :: i
+        logical :: is_found(2)
 
         call take_only_row(worker%table, line, number, status)
         if (is_error(status)) then
@@ -119,10 +129,15 @@ contains
                     call doubt_pressure('pmax_MPa', result%normal%pmax, doubts)
             end if
             call count_doubts(worker%tally, doubts, int(number, int64), number)
+            is_found = case%given%is_given .and. .not. is_error(status)
             do i = 1, table%n_columns
                 if (i == columns%of(load_column) .and. .not. (case%by_load .or. is_error(status))) &
                     then
                     call put_cell(writer, result%normal%load)
+                else if (i == columns%of(creepage_columns(1)) .and. is_found(1)) then
+                    call put_cell(writer, result%creepage%cksi)
+                else if (i == columns%of(creepage_columns(2)) .and. is_found(2)) then
+                    call put_cell(writer, result%creepage%ceta)
                 else
                     call put_cell(writer, cell_text(table, 1, i))
                 end if
@@ -187,8 +202,23 @@ contains
                 end if
             end if
         end associate
+        number = 0.0_wp
+        do i = 1, size(given_columns)
+            associate (given => case%given, creepage => columns%of(creepage_columns(i)))
+                if (len(cell_text(table, 1, columns%given(i))) == 0) cycle
+                given%is_given(i) = .true.
+                call cell_number(table, 1, columns%given(i), given%force(i), status)
+                if (is_error(status)) return
+                if (len(cell_text(table, 1, creepage)) == 0) cycle
+                call set_status(status, st_bad_argument, &
+                                trim(case_columns(creepage_columns(i))) // ' must be empty with ' &
+                                // given_columns(i) // ', got ' // cell_text(table, 1, creepage))
+                return
+            end associate
+        end do
         do i = lbound(number, 1), ubound(number, 1)
             if (i == load_column .and. .not. case%by_load) cycle
+            if (any(i == creepage_columns .and. case%given%is_given)) cycle
             call cell_number(table, 1, columns%of(i), number(i), status)
             if (is_error(status)) return
         end do

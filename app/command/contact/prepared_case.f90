@@ -62,6 +62,9 @@ contains
             prepared%load = contact_force(case%load, prepared%rigid_contact%gamma)
         if (case%creepage_by_formula) prepared%creepage = &
             shift_creepage(case%bodies%wheelset, prepared%rigid_contact, left, case%creepage_signs)
+        ! In place of those by formula a force is given.
+        if (case%given%is_given(1)) prepared%creepage%cksi = 0.0_wp
+        if (case%given%is_given(2)) prepared%creepage%ceta = 0.0_wp
         call take_lists(case, prepared)
         call make_gap(case%bodies%wheel%profile, case%bodies%rail%profile, case%bodies%wheelset, &
                       prepared%rigid_contact, case%gap_step, case%gap_height, prepared%gap, status)

@@ -2,7 +2,8 @@
 module faststrip_command_rows_result_csv
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, status_word, limitation_words, number_text
-    use faststrip_contact_figures, only: figure_area, figure_est_err_area, figure_est_err_fx, &
+    use faststrip_contact_figures, only: figure_area, figure_est_err_area, figure_est_err_ceta, &
+                                         figure_est_err_cksi, figure_est_err_fx, &
                                          figure_est_err_fy, figure_est_err_mz, &
                                          figure_est_err_penetration, figure_est_err_pmax, &
                                          figure_fatigue_index, figure_friction_power, figure_fx, &
@@ -48,7 +49,7 @@ module faststrip_command_rows_result_csv
         figure_stick_fraction, figure_normal_us, figure_tangential_us, figure_residual_inside, &
         figure_overlap_outside, figure_est_err_penetration, figure_est_err_pmax, &
         figure_est_err_area, figure_est_err_fx, figure_est_err_fy, figure_est_err_mz, &
-        figure_gap_change]
+        figure_est_err_cksi, figure_est_err_ceta, figure_gap_change]
     integer, parameter :: wear_figures(*) = [ &
         figure_t_gamma, figure_t_gamma_spin, figure_t_gamma_per_area, figure_fatigue_index, &
         figure_wear_mass, figure_wear_volume]

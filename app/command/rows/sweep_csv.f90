@@ -1,7 +1,7 @@
 !> The rows of `contact` and `sweep`: what was solved, by which methods, with what result.
 module faststrip_command_rows_sweep_csv
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
+    use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, &
                                    end_row
     use faststrip_command_program_console, only: put_origin, note, tell_held
     use faststrip_command_settings_case_file, only: case_t
@@ -61,6 +61,9 @@ contains
         type(auto_steps_t), intent(in) :: steps     !! of auto
         type(status_t), intent(in) :: status        !! how it ended
 
+        logical :: given(2)
+
+        given = prepared%given%is_given
         call put_cell(writer, case%name)
         call put_cell(writer, prepared%shift)
         call put_cell(writer, trim(normal_method_name(prepared%methods%normal)))
@@ -68,8 +71,13 @@ contains
         call put_cell(writer, merge(prepared%load, result%normal%load, prepared%by_load), &
                       is_known=prepared%by_load .or. .not. is_error(status))
         call put_cell(writer, prepared%rigid_contact%gamma, is_known=len(case%gap_file) == 0)
-        call put_cells(writer, [prepared%creepage%cksi, prepared%creepage%ceta, &
-                                prepared%creepage%cphi])
+        associate (c => prepared%creepage, found => result%creepage)
+            call put_cell(writer, merge(found%cksi, c%cksi, given(1)), &
+                          is_known=.not. (given(1) .and. is_error(status)))
+            call put_cell(writer, merge(found%ceta, c%ceta, given(2)), &
+                          is_known=.not. (given(2) .and. is_error(status)))
+            call put_cell(writer, c%cphi)
+        end associate
         call put_result(writer, result, steps, status)
         call end_row(writer)
     end subroutine put_sweep_row

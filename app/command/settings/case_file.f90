@@ -149,6 +149,12 @@ contains
                 call refuse(group, 'creepage', 'must be given where creepages are given', 'formula')
         end associate
         if (text_of(group, 'sign_set', 'B') == 'A') case%creepage_signs = creepage_set_a
+        case%given%is_given = [is_set(group, 'Fx_N'), is_set(group, 'Fy_N')]
+        case%given%force = [number_of(group, 'Fx_N', 0.0_wp), number_of(group, 'Fy_N', 0.0_wp)]
+        if (case%given%is_given(1) .and. is_set(group, 'cksi')) &
+            call refuse(group, 'Fx_N', 'must not be given with cksi, which follows from it', '')
+        if (case%given%is_given(2) .and. is_set(group, 'ceta')) &
+            call refuse(group, 'Fy_N', 'must not be given with ceta, which follows from it', '')
     end subroutine read_motion_group
 
     subroutine read_sweep_group(content, case)

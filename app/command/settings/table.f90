@@ -163,7 +163,11 @@ module faststrip_command_settings_table
         setting_t('motion', 'ceta', a_number, 'lateral creepage', default='0'), &
         setting_t('motion', 'cphi_rad_per_mm', a_number, 'spin creepage', default='0'), &
         setting_t('motion', 'speed_mm_s', a_number, 'rolling speed, for friction that falls', &
-                  range=above_0, quantity=of_speed)]
+                  range=above_0, quantity=of_speed), &
+        setting_t('motion', 'Fx_N', a_number, &
+                  'longitudinal force on the rail, instead of `cksi`, which is found'), &
+        setting_t('motion', 'Fy_N', a_number, &
+                  'lateral force on the rail, instead of `ceta`, which is found')]
 
     type(setting_t), parameter :: of_friction_laws(*) = [ &
         setting_t('friction', 'kind', a_word, 'how friction falls with slip speed', &

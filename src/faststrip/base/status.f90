@@ -18,7 +18,7 @@ module faststrip_base_status
     public :: st_ok
     public :: st_fallback_used, st_edge_of_data, st_fewer_strips, st_overlap_left
     public :: st_flat_along_x, st_conformal, st_target_missed, st_under_resolved, st_more_strips
-    public :: st_beyond_yield, st_no_wave
+    public :: st_beyond_yield, st_no_wave, st_not_unique
     public :: st_bad_argument, st_not_finite, st_not_increasing, st_too_few_points, st_bad_material
     public :: st_bad_load, st_no_contact, st_no_hertz_ellipse, st_no_convergence, st_out_of_range
     public :: st_workspace_too_small, st_linear_algebra, st_quadrature, st_no_finite_patch
@@ -41,6 +41,7 @@ module faststrip_base_status
     integer, parameter :: st_more_strips = 9
     integer, parameter :: st_beyond_yield = 10
     integer, parameter :: st_no_wave = 11
+    integer, parameter :: st_not_unique = 12
 
     !> The lowest code that means "no result".
     integer, parameter :: first_error = 100
@@ -158,6 +159,7 @@ contains
         case (st_more_strips); word = 'more_strips'
         case (st_beyond_yield); word = 'beyond_yield'
         case (st_no_wave); word = 'no_wave'
+        case (st_not_unique); word = 'not_unique'
         case (st_bad_argument); word = 'bad_argument'
         case (st_not_finite); word = 'not_finite'
         case (st_not_increasing); word = 'not_increasing'

@@ -188,6 +188,7 @@ contains
         search%case%mu = case%mu
         search%case%friction = case%friction
         search%case%creepage = case%creepage
+        search%case%given = case%given
         search%case%asked%strip_forces = wants_strip_forces(case)
         ! What is under resolved for the target is reported in the end.
         search%case%resolution_limit = huge(1.0_wp)
@@ -482,6 +483,7 @@ contains
             c%est_err_area = c%est_err_area/finer**usual_order
         end associate
         case = search%case
+        case%creepage = search%last%creepage
         case%methods%points_per_strip = max(search%wanted%most_strips, least_points)
         call clear_status(status)
         method => tangential_method_of(workspace, case%methods%tangential)
@@ -501,7 +503,7 @@ contains
         call clear_status(status)
         call estimate_force_errors(workspace%strips, &
                                    softened(search%case%material, workspace%friction), &
-                                   workspace%mu, search%case%creepage, errors_of_fitted, &
+                                   workspace%mu, search%last%creepage, errors_of_fitted, &
                                    max(search%wanted%most_strips, least_points), &
                                    normal_errors_t(), asked%force_errors, status, &
                                    search%wanted%most_strips/search%before%across)

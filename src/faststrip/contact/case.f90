@@ -15,7 +15,7 @@ module faststrip_contact_case
     implicit none
     private
 
-    public :: contact_case_t, asked_t
+    public :: contact_case_t, contact_terms_t, asked_t, given_forces_t
 
     !> What a solution shall hold besides its figures.
     type :: asked_t
@@ -26,15 +26,22 @@ module faststrip_contact_case
         logical :: times = .false.        !! time of either problem, in the result's `times`
     end type asked_t
 
-    !> One contact to be solved. What is prescribed, `by_load`, `load` or `penetration`, is its
-    !> `demand_t`.
-    type, extends(demand_t) :: contact_case_t
-        type(gap_t) :: gap                 !! undeformed gap; without it that of `set_contact_gap`
+    !> Forces that a contact has to carry, in place of creepages, which are found.
+    type :: given_forces_t
+        logical :: is_given(2) = .false. !! longitudinal, lateral; where it is, cksi or ceta of the
+                                         !! case must be 0
+        real(wp) :: force(2) = 0.0_wp    !! on the rail, N; of those that are given
+    end type given_forces_t
+
+    !> What counts of one contact besides its gap: it is copied without an allocation. What is
+    !> prescribed, `by_load`, `load` or `penetration`, is its `demand_t`.
+    type, extends(demand_t) :: contact_terms_t
         type(material_t) :: material       !! moduli in MPa
         ! Tuned [1]. Origin: usual for dry rails.
         real(wp) :: mu = 0.3_wp            !! coefficient of friction, the static one
         type(friction_t) :: friction       !! how it falls with slip, factor of the initial slope
         type(creepage_t) :: creepage       !! about y = 0
+        type(given_forces_t) :: given      !! forces in place of creepages
         type(contact_methods_t) :: methods !! methods and resolutions
         type(wanted_t) :: wanted           !! of normal method auto: target, tolerance, budget
         type(asked_t) :: asked             !! what the solution shall hold besides its figures
@@ -56,5 +63,10 @@ module faststrip_contact_case
             !! `st_under_resolved` names an estimated relative error above this, > 0
         real(wp) :: force_limit = default_resolution
             !! the same of the forces, over mu N, and of the moment, over mu N c
+    end type contact_terms_t
+
+    !> One contact to be solved.
+    type, extends(contact_terms_t) :: contact_case_t
+        type(gap_t) :: gap !! undeformed gap; without it that of `set_contact_gap`
     end type contact_case_t
 end module faststrip_contact_case

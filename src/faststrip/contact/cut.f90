@@ -7,12 +7,33 @@ module faststrip_contact_cut
     use faststrip_base_status, only: status_t, is_error
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: contact_result_t, workspace_t, tangential_method_t
+    use faststrip_tangential_motion, only: cut_creepage
     implicit none
     private
 
-    public :: solve_cut
+    public :: solve_motion
 
 contains
+
+    !> Solve for the creepages of a case, cut if they are beyond what the method takes.
+    subroutine solve_motion(workspace, case, method, result, status)
+        type(workspace_t), intent(inout) :: workspace    !! with a normal solution
+        type(contact_case_t), intent(in) :: case         !! with its creepages as they are
+        class(tangential_method_t), intent(in) :: method !! that of the case
+        type(contact_result_t), intent(inout) :: result  !! gets its tangential part
+        type(status_t), intent(out) :: status            !! those of the method
+
+        type(creepage_t) :: creepage
+        real(wp) :: share
+
+        result%creepage = case%creepage
+        call cut_creepage(case%creepage, creepage, share)
+        if (.not. share < 1.0_wp .or. .not. method%cuts_creepages) then
+            call method%solve(workspace, case, result, status)
+        else
+            call solve_cut(workspace, case, method, creepage, share, result, status)
+        end if
+    end subroutine solve_motion
 
     !> Solve for creepages that were cut.
     subroutine solve_cut(workspace, case, method, creepage, share, result, status)
@@ -26,13 +47,11 @@ contains
 
         type(contact_case_t) :: slower
 
-        slower%material = case%material
-        slower%methods = case%methods
-        slower%asked = case%asked
-        slower%wear_law%n = case%wear_law%n
+        slower%contact_terms_t = case%contact_terms_t
         slower%creepage = creepage
         workspace%friction%speed = case%friction%speed/share
         call method%solve(workspace, slower, result, status)
+        workspace%friction%speed = case%friction%speed
         if (.not. is_error(status)) call scale_slip(workspace, result, 1.0_wp/share)
     end subroutine solve_cut
 

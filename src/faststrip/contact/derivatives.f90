@@ -8,7 +8,7 @@ module faststrip_contact_derivatives
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, st_bad_argument
-    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_case, only: contact_case_t, given_forces_t
     use faststrip_contact_method, only: workspace_t, contact_result_t, normal_method_t, &
                                         tangential_method_t
     use faststrip_contact_methods, only: normal_auto, normal_table, tangential_table, &
@@ -52,7 +52,8 @@ contains
         type(contact_result_t) :: near
         type(demand_t) :: demand
         type(status_t) :: again
-        type(creepage_t) :: creepage
+        type(creepage_t) :: creepage, solved
+        type(given_forces_t) :: given
         real(wp) :: tolerance
         logical :: estimate
 
@@ -68,6 +69,11 @@ contains
         call hold_environment(environment)
         demand = case%demand_t
         creepage = case%creepage
+        given = case%given
+        solved = creepage
+        if (any(given%is_given)) solved = result%creepage
+        case%creepage = solved
+        case%given = given_forces_t()
         tolerance = case%strip_tolerance
         estimate = case%estimate
         case%estimate = .false.
@@ -80,7 +86,7 @@ contains
             ! The solution as it was.
             derivatives = 0.0_wp
             case%stays = .false.
-            case%creepage = creepage
+            case%creepage = solved
             case%penetration = result%normal%penetration
             call find_pressures(workspace, case, normal, near, again)
             if (.not. is_error(again) .and. case%methods%tangential /= tangential_none) &
@@ -88,6 +94,7 @@ contains
         end if
         case%demand_t = demand
         case%creepage = creepage
+        case%given = given
         case%strip_tolerance = tolerance
         case%estimate = estimate
         case%stays = .false.

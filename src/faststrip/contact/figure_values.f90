@@ -1,7 +1,8 @@
 !> The values of the figures of a contact: which component of a result is which figure.
 module faststrip_contact_figure_values
     use faststrip_base_kinds, only: wp
-    use faststrip_contact_figures, only: figure_est_err_area, figure_est_err_fx, &
+    use faststrip_contact_figures, only: figure_est_err_area, figure_est_err_ceta, &
+                                         figure_est_err_cksi, figure_est_err_fx, &
                                          figure_est_err_mz, figure_est_err_penetration, &
                                          figure_fatigue_index, figure_friction_power, figure_fx, &
                                          figure_gap_change, figure_overlap_outside, &
@@ -38,7 +39,7 @@ contains
                       force_errors%fy, force_errors%mz, um_per_mm*result%gap_change, &
                       result%times%normal_us, result%times%tangential_us, wear%t_gamma, &
                       wear%t_gamma_spin, wear%t_gamma_per_area, wear%fatigue_index, &
-                      wear%wear%mass, wear%wear%volume]
+                      wear%wear%mass, wear%wear%volume, result%creepage_errors]
             known = .true.
             known(figure_fx:figure_friction_power) = result%has_forces
             known(figure_stick_fraction) = result%knows_stick
@@ -46,6 +47,7 @@ contains
             known(figure_est_err_penetration:figure_est_err_area) = result%is_estimated
             known(figure_residual_inside:figure_overlap_outside) = result%has_residuals
             known(figure_est_err_fx:figure_est_err_mz) = result%forces_are_estimated
+            known(figure_est_err_cksi:figure_est_err_ceta) = result%forces_are_estimated
             known(figure_gap_change) = result%gap_change > 0.0_wp
             known(figure_t_gamma:figure_t_gamma_per_area) = result%has_forces
             known(figure_fatigue_index) = wear%knows_fatigue

@@ -31,7 +31,8 @@ module faststrip_contact_figures
                                   figure_normal_us = 25, figure_tangential_us = 26, &
                                   figure_t_gamma = 27, figure_t_gamma_spin = 28, &
                                   figure_t_gamma_per_area = 29, figure_fatigue_index = 30, &
-                                  figure_wear_mass = 31, figure_wear_volume = 32
+                                  figure_wear_mass = 31, figure_wear_volume = 32, &
+                                  figure_est_err_cksi = 33, figure_est_err_ceta = 34
 
     !> All of them.
     type(figure_t), parameter :: figures(*) = [ &
@@ -88,7 +89,11 @@ module faststrip_contact_figures
         figure_t('mass', 'wear_ug_per_m', needs='wear law', &
                  meaning='wear, mass per distance rolled'), &
         figure_t('volume', 'wear_mm3_per_m', needs='wear law', &
-                 meaning='wear, volume per distance rolled')]
+                 meaning='wear, volume per distance rolled'), &
+        figure_t('est_err_cksi', 'est_err_cksi', needs='force errors', &
+                 meaning='estimated error of cksi, 0 where it is given'), &
+        figure_t('est_err_ceta', 'est_err_ceta', needs='force errors', &
+                 meaning='estimated error of ceta, 0 where it is given')]
 
     !> How many there are.
     integer, parameter :: n_figures = size(figures)

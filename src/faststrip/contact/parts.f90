@@ -1,22 +1,22 @@
 !> The parts of a solution, in their order: check, gap, pressures, their errors, forces, their
 !> errors. `solve_contact` and the search of auto are made of them, and nothing else is.
 module faststrip_contact_parts
-    use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: check_friction, falls
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: check_material
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
-                                     st_bad_argument, st_workspace_too_small
+                                     join_limitations, st_bad_argument, st_workspace_too_small
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: set_gap_curve
     use faststrip_geometry_gap_smoothing, only: smooth_gap
     use faststrip_normal_limitations, only: check_resolution
-    use faststrip_tangential_motion, only: cut_creepage
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_clock, only: lap_t, start_lap, add_lap
-    use faststrip_contact_cut, only: solve_cut
+    use faststrip_contact_cut, only: solve_motion
+    use faststrip_contact_given_forces, only: check_given_forces, solve_given_forces, &
+                                              estimate_given_forces
     use faststrip_contact_method, only: contact_result_t, workspace_t, wear_figures_t, &
                                         normal_method_t, tangential_method_t, normal_method_of, &
                                         tangential_method_of
@@ -94,7 +94,8 @@ contains
         class(normal_method_t), pointer, intent(out) :: normal !! null if it is auto
         class(tangential_method_t), pointer, intent(out) :: tangential !! null with an error
         type(status_t), intent(out) :: status
-            !! those of `check_methods`, `check_resolution`, `check_material`
+            !! those of `check_methods`, `check_resolution`, `check_material`,
+            !! `check_given_forces`
 
         call check_methods(workspace, case%methods, normal, tangential, status)
         if (.not. is_error(status)) &
@@ -102,6 +103,8 @@ contains
         if (.not. is_error(status)) &
             call check_resolution(case%force_limit, 'the limit of the errors of forces', status)
         if (.not. is_error(status)) call check_material(case%material, status)
+        if (.not. is_error(status) .and. any(case%given%is_given)) &
+            call check_given_forces(case%given, case%creepage, tangential%about, status)
     end subroutine check_contact
 
     !> Refuse friction that is none, and friction that falls with slip where the method cannot do.
@@ -167,9 +170,7 @@ contains
         type(contact_result_t), intent(inout) :: result !! gets its tangential part
         type(status_t), intent(out) :: status           !! those of the method
 
-        type(creepage_t) :: creepage
         type(lap_t) :: lap
-        real(wp) :: share
 
         ! Nothing of the forces before stays, whatever happens.
         result%has_forces = .false.
@@ -177,6 +178,7 @@ contains
         result%wear = wear_figures_t()
         result%tangential = tangential_result_t()
         result%force_errors = force_errors_t()
+        result%creepage_errors = 0.0_wp
         result%forces_are_estimated = .false.
         workspace%field%n = 0
         workspace%strip_forces%n = 0
@@ -185,11 +187,11 @@ contains
         call start_lap(case%asked%times, lap)
         call take_friction(workspace, case)
         result%mu = workspace%mu
-        call cut_creepage(case%creepage, creepage, share)
-        if (.not. share < 1.0_wp .or. .not. method%cuts_creepages) then
-            call method%solve(workspace, case, result, status)
+        if (.not. (case%warm_start .or. case%stays)) workspace%found%is_known = .false.
+        if (any(case%given%is_given)) then
+            call solve_given_forces(workspace, case, method, result, status)
         else
-            call solve_cut(workspace, case, method, creepage, share, result, status)
+            call solve_motion(workspace, case, method, result, status)
         end if
         if (is_error(status)) return
         call add_lap(case%asked%times, lap, result%times%tangential_us, &
@@ -213,6 +215,10 @@ contains
         call find_forces(workspace, case, method, result, forces)
         if (is_error(forces)) then
             status = forces
+        else if (any(case%given%is_given)) then
+            call join_limitations(status, forces)
+            if (case%estimate .and. result%is_estimated) &
+                call estimate_given_forces(workspace, case, method, result, status)
         else if (case%estimate .and. result%is_estimated) then
             call method%estimate(workspace, case, result, status)
         end if

@@ -48,7 +48,7 @@ contains
         type(contact_case_t), intent(in) :: case
         type(contact_result_t), intent(in) :: result
 
-        associate (errors => result%force_errors, c => case%creepage, normal => result%normal, &
+        associate (errors => result%force_errors, c => result%creepage, normal => result%normal, &
                    power => result%tangential%friction_power)
             error = (abs(c%cksi)*errors%fx + abs(c%ceta)*errors%fy &
                      + abs(c%cphi)*errors%mz*sqrt(normal%area/pi))*result%mu*normal%load

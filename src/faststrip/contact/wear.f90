@@ -16,7 +16,7 @@ contains
     !> Find what a contact's forces do to the surfaces.
     subroutine find_wear(workspace, case, result)
         type(workspace_t), intent(inout) :: workspace   !! with the solution; gets wear of strips
-        type(contact_case_t), intent(in) :: case        !! creepages, law, yield stress in shear
+        type(contact_case_t), intent(in) :: case        !! law, yield stress in shear
         type(contact_result_t), intent(inout) :: result !! with forces; gets the figures
 
         if (is_error(workspace%wear_status)) call clear_status(workspace%wear_status)
@@ -24,8 +24,8 @@ contains
         associate (figures => result%wear, normal => result%normal, &
                    tangential => result%tangential, n => workspace%strips%n, &
                    found => workspace%strip_wear)
-            figures%t_gamma = t_gamma(tangential, case%creepage)
-            figures%t_gamma_spin = t_gamma_with_spin(tangential, case%creepage)
+            figures%t_gamma = t_gamma(tangential, result%creepage)
+            figures%t_gamma_spin = t_gamma_with_spin(tangential, result%creepage)
             figures%t_gamma_per_area = figures%t_gamma/normal%area
             figures%knows_fatigue = case%yield_shear > 0.0_wp
             if (figures%knows_fatigue) figures%fatigue_index = surface_fatigue_index( &

@@ -49,7 +49,7 @@ contains
 
         call hold_environment(environment)
         figures = 0.0_c_double
-        case%creepage = creepage
+        result%creepage = creepage
         case%yield_shear = yield_shear
         call check_forces(workspace, result, status)
         if (.not. is_error(status)) call fill_law(regimes, density, case%wear_law, status)

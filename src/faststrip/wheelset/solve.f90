@@ -166,6 +166,11 @@ contains
         result%wheel%solutions = 0
         call check_damping(model%damping, model%speed_floor, status)
         if (is_error(status)) return
+        if (any(model%case%given%is_given)) then
+            call set_status(status, st_bad_argument, 'Fx and Fy of contacts cannot be given ' // &
+                            'of a wheelset, whose motion gives their creepages')
+            return
+        end if
         call check_demand(state, demand, status)
         if (is_error(status)) return
         call check_workspace(model, workspace, status)

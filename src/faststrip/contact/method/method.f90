@@ -7,6 +7,7 @@
 !> core is a constant: one serves all threads. One that needs memory points to it, and serves the
 !> thread whose memory it is.
 module faststrip_contact_method
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
@@ -25,7 +26,7 @@ module faststrip_contact_method
     implicit none
     private
 
-    public :: contact_result_t, workspace_t, times_t, wear_figures_t, strip_wear_t
+    public :: contact_result_t, workspace_t, times_t, wear_figures_t, strip_wear_t, found_motion_t
     public :: normal_method_t, tangential_method_t
     public :: enter_normal_method, enter_tangential_method, normal_method_of, tangential_method_of
 
@@ -61,6 +62,10 @@ module faststrip_contact_method
             !! is that known? Not of ellipses in the strips' place
         logical :: has_residuals = .false.
             !! are residuals of the error estimates known? Of strips, Hertz and norm
+        type(creepage_t) :: creepage
+            !! that the forces were solved for: the case's, found where forces are given
+        real(wp) :: creepage_errors(2) = 0.0_wp
+            !! estimated errors of those found, cksi and ceta, if `forces_are_estimated`
         type(tangential_result_t) :: tangential = tangential_result_t()
             !! forces on the rail, friction power, stick
         real(wp) :: mu = 0.0_wp          !! their coefficient of friction, static; the mean by load
@@ -91,6 +96,16 @@ module faststrip_contact_method
         real(wp), allocatable :: pass_depth(:)       !! depth when rolled over once, mm
     end type strip_wear_t
 
+    !> Where a search of creepages for given forces ended.
+    type :: found_motion_t
+        logical :: is_known = .false.         !! is there one to start from?
+        logical :: is_given(2) = .false.      !! were Fx, Fy given?
+        real(wp) :: z(2) = 0.0_wp             !! coordinates of the creepages, see `force_map`
+        real(wp) :: r(2) = 0.0_wp             !! unsaturated forces there, over mu N
+        real(wp) :: slope(2, 2) = 0.0_wp      !! of z over r
+        real(wp) :: rates(2, 2) = 0.0_wp      !! of cksi, ceta over Fx, Fy, 1/N
+    end type found_motion_t
+
     !> Everything a solution needs beside the case; owned by the caller, one per thread.
     type :: workspace_t
         type(strip_workspace_t) :: solver
@@ -107,6 +122,7 @@ module faststrip_contact_method
         type(status_t) :: wear_status
             !! why there is no wear of the last contact in spite of a law; or ok
         type(strip_wear_t) :: strip_wear  !! of the last contact, if there is a law
+        type(found_motion_t) :: found      !! of the last contact, if forces were given
         type(contact_methods_t) :: methods !! that the last contact was solved by
         type(auto_steps_t) :: steps        !! of the last contact, if by auto
         type(contact_strips_t) :: best_strips !! of the best step so far of auto

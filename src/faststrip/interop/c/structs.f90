@@ -13,7 +13,7 @@ module faststrip_interop_c_structs
     use faststrip_base_friction, only: friction_t
     use faststrip_base_friction_table, only: friction_table_t, most_places
     use faststrip_base_material, only: material_t
-    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_case, only: contact_case_t, given_forces_t
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_wanted, only: wanted_t, unknown_error
     use faststrip_interop_handle, only: handle_t
@@ -40,19 +40,23 @@ module faststrip_interop_c_structs
         integer(c_int) :: n_mu = 0, mu_over = 0
         type(c_ptr) :: mu_at = c_null_ptr, mu_table = c_null_ptr
         real(c_double) :: rail_y = 0
+        integer(c_int) :: fx_is_given, fy_is_given
+        real(c_double) :: given_fx, given_fy
     end type c_case_t
 
     !> `faststrip_result` of the header; zeros unless there is one.
     type, bind(c) :: c_result_t
         integer(c_size_t) :: size = 0
         real(c_double) :: load = 0, penetration = 0, area = 0, pmax = 0, y_min = 0, y_max = 0, &
-                          x_max = 0, fx = 0, fy = 0, mz = 0, friction_power = 0, stick_fraction = 0
+                          x_max = 0, cksi = 0, ceta = 0, fx = 0, fy = 0, mz = 0, &
+                          friction_power = 0, stick_fraction = 0
         integer(c_int) :: n_patches = 0, n_strips = 0, n_elements = 0, iterations = 0, &
                           is_estimated = 0, strips_across = 0
         real(c_double) :: est_err_penetration = 0, est_err_pmax = 0, est_err_area = 0, &
                           residual_inside = 0, overlap_outside = 0
         integer(c_int) :: forces_are_estimated = 0, limitations = 0
-        real(c_double) :: est_err_fx = 0, est_err_fy = 0, est_err_mz = 0
+        real(c_double) :: est_err_fx = 0, est_err_fy = 0, est_err_mz = 0, est_err_cksi = 0, &
+                          est_err_ceta = 0
         integer(c_int) :: n_steps = 0, best_step = 0, target_is_known = 0, target_is_met = 0
         real(c_double) :: est_err_target = 0
     end type c_result_t
@@ -104,6 +108,10 @@ contains
             fields%flange_angle = friction%flange_angle
         end associate
         fields%contact_angle = 0
+        fields%fx_is_given = 0
+        fields%fy_is_given = 0
+        fields%given_fx = 0
+        fields%given_fy = 0
     end function default_case
 
     !> A caller's case, if it is one.
@@ -182,6 +190,8 @@ contains
                                    fields%tread_angle, fields%flange_angle)
         contact_angle = fields%contact_angle
         call fill_table(fields, case%friction%table)
+        case%given = given_forces_t([fields%fx_is_given, fields%fy_is_given] /= 0, &
+                                    [fields%given_fx, fields%given_fy])
     end subroutine fill_case
 
     ! Arrays that are missing are not finite.
@@ -221,6 +231,8 @@ contains
             fields%y_min = normal%y_min
             fields%y_max = normal%y_max
             fields%x_max = normal%x_max
+            fields%cksi = handle%result%creepage%cksi
+            fields%ceta = handle%result%creepage%ceta
             fields%fx = tangential%fx
             fields%fy = tangential%fy
             fields%mz = tangential%mz
@@ -242,6 +254,8 @@ contains
             fields%est_err_fx = forces%fx
             fields%est_err_fy = forces%fy
             fields%est_err_mz = forces%mz
+            fields%est_err_cksi = handle%result%creepage_errors(1)
+            fields%est_err_ceta = handle%result%creepage_errors(2)
             fields%n_steps = steps%n
             fields%best_step = steps%best
             fields%target_is_known = merge(1, 0, steps%estimate < unknown_error)

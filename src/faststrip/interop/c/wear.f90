@@ -50,7 +50,7 @@ contains
         call clear_figures(figures)
         call read_law(law, figures, wanted, handle%status)
         if (.not. is_error(handle%status)) &
-            call contact_wear(handle%workspace, handle%result, handle%case%creepage, &
+            call contact_wear(handle%workspace, handle%result, handle%result%creepage, &
                               wanted%regimes, wanted%density, yield_shear, &
                               numbers_at(figures, n_wear), handle%status)
         code = handle%status%code

@@ -7,8 +7,8 @@
 !> allocates, FSFREE frees, nothing in between allocates, and the library remembers nothing of its
 !> own. `INFO` is a code of `faststrip_base_status`: 0, below 100 a result with a named limitation
 !> (1 fallback_used, 2 edge_of_data, 3 fewer_strips, 4 overlap_left, 5 flat_along_x, 6 conformal, 7
-!> target_missed, 8 under_resolved, 9 more_strips, 10 beyond_yield, 11 no_wave), from 100 on no
-!> result.
+!> target_missed, 8 under_resolved, 9 more_strips, 10 beyond_yield, 11 no_wave, 12 not_unique), from
+!> 100 on no result.
 !>
 !> ```
 !> IOPT(1) normal method: 1 strip, 2 hertz, 3 equal_area, 4 equal_moments, 6 auto, 7 kpec, 8 analyn,

@@ -120,7 +120,7 @@ contains
         wear = 0.0_c_double
         call find_either(iwork, handle, wheelset, info)
         if (associated(handle)) then
-            call contact_wear(handle%workspace, handle%result, handle%case%creepage, &
+            call contact_wear(handle%workspace, handle%result, handle%result%creepage, &
                               regimes(:, :n_regimes), density, yield_shear, wear, handle%status)
             info = handle%status%code
         else if (associated(wheelset)) then
