@@ -390,6 +390,9 @@ typedef struct faststrip_wheelset_setup {
     double rail_distance; /* distance of the origins of the rails' profiles, not the gauge; 0: the
                            * gauge */
     double inclination;   /* of both rails */
+    double roller_radius; /* of rollers in the rails' place, on one axis along y, at z = 0 of the
+                           * track, the crown where the gauge counts; the state's speed is that of
+                           * their surface there; 0: rails */
     double damping;       /* of contacts, s/mm: forces grow by this share of the approach rate, but
                            * never pull; that of Hunt and Crossley, 3/2 alpha; 0: none */
     double speed_floor;   /* of rolling speeds, mm/s: well below it friction grows with the slip

@@ -13,16 +13,21 @@
 !> to the side and by
 !> `dz = eta (dphi + psi phi dpsi) + rho ((phi + S psi**2) dphi + S psi (S + 2 phi) dpsi)` down,
 !> where the terms of the yaw grow by `1/cos(theta)`, theta the angle by which the outline is ahead.
+!>
+!> Over a roller the outline depends on the height as well: it is that of a wheel that is lowered so
+!> far, and points shift by less than `(1 + |S|)` of what that changes. Of any other motion nothing
+!> is known there.
 module faststrip_geometry_wheel_outline
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps, equal_within
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_point, rail_height, &
                                                 rail_span, steepest_rail
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, wheelset_axes
     implicit none
     private
 
-    public :: outline_t, reserve_outline, move_outline, see_points, may_be_lower, lowest_height
-    public :: cell_of, cell_end
+    public :: outline_t, reserve_outline, move_outline, lower_outline, see_points, see_point
+    public :: may_be_lower, lowest_height, cell_of, cell_end
 
     ! Tuned [points]: in a cell. Origin: measured: with half as many a step of a wheelset costs 2 %
     ! more, with twice as many it costs the same.
@@ -58,6 +63,8 @@ module faststrip_geometry_wheel_outline
         real(wp), allocatable :: lever(:)   !! longest of a cell from the wheelset's centre, mm
         real(wp), allocatable :: bend(:)    !! steepest slope of the wheel's profile in it
         real(wp) :: largest_radius = 0.0_wp !! of the wheel, mm
+        logical :: is_on_roller = .false.   !! and not on a rail?
+        real(wp) :: lowered = 0.0_wp        !! over a roller: how far below the state, mm
     end type outline_t
 
 contains
@@ -94,6 +101,7 @@ contains
             outline%bend(cell) = maxval(abs(pair%slope(first:last)))
         end do
         outline%largest_radius = pair%radius + maxval(pair%z) - pair%z_line
+        outline%is_on_roller = pair%roller_radius > 0.0_wp
     end subroutine reserve_outline
 
     !> The number of a point's cell.
@@ -125,7 +133,8 @@ contains
             roll = max(abs(state%roll), abs(before%roll))
             d_yaw = abs(state%yaw - before%yaw)
             d_roll = abs(state%roll - before%roll)
-            if (outline%has_state .and. state%rail(1)%roll == before%rail(1)%roll) then
+            if (outline%has_state .and. state%rail(1)%roll == before%rail(1)%roll &
+                .and. .not. outline%is_on_roller) then
                 yawed = most_ahead*d_yaw*tan(yaw)
                 tilt = tan(yaw)**2
                 do cell = 1, size(outline%low)
@@ -152,7 +161,29 @@ contains
         outline%state = state
         outline%state%z = 0.0_wp
         outline%axes = wheelset_axes(outline%state, radius)
+        outline%lowered = 0.0_wp
     end subroutine move_outline
+
+    !> The outline over a roller of a wheel that is lowered; over a rail nothing depends on it.
+    pure subroutine lower_outline(outline, lowered)
+        type(outline_t), intent(inout) :: outline !! at a state
+        real(wp), intent(in) :: lowered           !! beyond the state, mm
+
+        real(wp) :: aside
+        integer :: cell
+
+        if (.not. (outline%is_on_roller .and. abs(lowered - outline%lowered) > 0.0_wp)) return
+        do cell = 1, size(outline%low)
+            aside = abs(lowered - outline%lowered)*(1.0_wp + outline%bend(cell))
+            outline%way(cell) = outline%way(cell) - aside
+            outline%low(cell) = outline%low(cell) - aside*(1.0_wp + outline%steep(cell))
+            if (outline%way(cell) < 0.0_wp &
+                .or. outline%bend(cell)*tan(abs(outline%state%yaw)) > farthest_ahead) &
+                outline%low(cell) = -huge(1.0_wp)
+        end do
+        outline%is_seen = .false.
+        outline%lowered = lowered
+    end subroutine lower_outline
 
     !> May a point of the outline be lower over the rail than this?
     pure logical function may_be_lower(outline, point, height)
@@ -177,6 +208,24 @@ contains
         end do
     end subroutine see_points
 
+    !> One point of the outline, as if it were not lowered.
+    pure subroutine see_point(outline, pair, i, point, slope, is_there)
+        type(outline_t), intent(in) :: outline    !! at a state
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        integer, intent(in) :: i                  !! number of the point
+        real(wp), intent(out) :: point(3)         !! as `outline_point` has it, mm
+        real(wp), intent(out) :: slope            !! dz/dy of the outline there
+        logical, intent(out) :: is_there          !! has the wheel an outline there?
+
+        type(wheelset_axes_t) :: axes
+
+        axes = outline%axes
+        axes%centre(3) = axes%centre(3) + outline%lowered
+        call outline_point(pair, outline%state%rail(1), axes, pair%y(i), pair%z(i), pair%slope(i), &
+                           point, slope, is_there)
+        point(3) = point(3) - outline%lowered
+    end subroutine see_point
+
     pure subroutine see_cell(outline, pair, cell)
         type(outline_t), intent(inout) :: outline
         type(wheel_on_rail_t), intent(in) :: pair
@@ -192,8 +241,7 @@ contains
         right = -huge(1.0_wp)
         span = rail_span(pair, outline%state%rail(1))
         do i = (cell - 1)*cell_points + 1, min(cell*cell_points, size(outline%x))
-            call outline_point(pair, outline%axes, pair%y(i), pair%z(i), pair%slope(i), point, &
-                               outline%slope(i), has_outline)
+            call see_point(outline, pair, i, point, outline%slope(i), has_outline)
             outline%x(i) = point(1)
             outline%y(i) = point(2)
             outline%z(i) = point(3)
@@ -224,11 +272,27 @@ contains
     end subroutine see_cell
 
     !> The lowest height of an outline over the rail; `huge` where they never stand one over the
-    !> other.
+    !> other. Over a roller the outline is that of a wheel that just touches it.
     pure subroutine lowest_height(outline, pair, lowest)
         type(outline_t), intent(inout) :: outline !! at a state; some of its cells are looked at
         type(wheel_on_rail_t), intent(in) :: pair !! made
         real(wp), intent(out) :: lowest           !! mm
+
+        integer :: i
+
+        do i = 1, most_steps
+            call find_lowest(outline, pair, lowest)
+            if (.not. outline%is_on_roller .or. lowest >= huge(lowest) &
+                .or. abs(lowest - outline%lowered) <= equal_within*outline%largest_radius) exit
+            call lower_outline(outline, lowest)
+        end do
+    end subroutine lowest_height
+
+    ! The lowest height of an outline as it is.
+    pure subroutine find_lowest(outline, pair, lowest)
+        type(outline_t), intent(inout) :: outline
+        type(wheel_on_rail_t), intent(in) :: pair
+        real(wp), intent(out) :: lowest
 
         integer :: cell
 
@@ -240,5 +304,5 @@ contains
                 call see_cell(outline, pair, cell)
             lowest = min(lowest, outline%low(cell))
         end do
-    end subroutine lowest_height
+    end subroutine find_lowest
 end module faststrip_geometry_wheel_outline
