@@ -417,6 +417,13 @@ int faststrip_pair_gap(const faststrip_profile *wheel, const faststrip_profile *
                        double *inv2r, double *inclination, double contact[6], char *text,
                        size_t length);
 
+/* The same on a roller in the rail's place: roller_radius, mm, is that at the crown; 0: a rail.
+ * The spin of a contact on it is larger by the rolling radius over that of the roller. */
+int faststrip_roller_gap(const faststrip_profile *wheel, const faststrip_profile *rail,
+                         const double setup[9], double roller_radius, int capacity, int *n,
+                         double *y, double *h, double *inv2r, double *inclination,
+                         double contact[6], char *text, size_t length);
+
 /* How a profile is read from a file, and what is done to its points then, in the order of the
  * members; nothing is repaired unasked. Fill it in with faststrip_default_reading first. */
 typedef struct faststrip_reading {

@@ -8,7 +8,7 @@ module faststrip_geometry_rigid_contact
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_halvings, largest_place
+    use faststrip_base_limits, only: most_halvings, largest_place, equal_within
     use faststrip_geometry_gauge_fit, only: check_fit, check_tape_circles
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
@@ -155,7 +155,8 @@ contains
             left = middle
             middle = right
         end do
-        found = .not. best > lowest
+        ! Samples of two arcs may lie lower by rounding.
+        found = .not. best - equal_within > lowest
 
     contains
 

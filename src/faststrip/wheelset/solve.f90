@@ -113,7 +113,7 @@ contains
 
         call clear_status(status)
         do side = side_right, side_left
-            if (.not. abs(radius) <= 0.0_wp) &
+            if (radius /= 0.0_wp) &
                 call check_roller(radius, maxval(model%pair(side)%sample), status)
         end do
         if (is_error(status)) return
