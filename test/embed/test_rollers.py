@@ -42,7 +42,8 @@ class Rollers(HostTest):
                     (found.place[1], "y_track_mm", 1e-3), (found.place[2], "z_track_mm", 1e-4),
                     (found.contact_angle, "contact_angle_rad", 1e-6),
                     (found.cksi, "cksi", 4e-7), (found.ceta, "ceta", 1e-9),
-                    (found.cphi, "cphi_rad_per_mm", 6e-7), (found.speed, "rolling_speed_mm_s", 6e-3),
+                    (found.cphi, "cphi_rad_per_mm", 6e-7),
+                    (found.speed, "rolling_speed_mm_s", 6e-3),
                     (found.penetration, "penetration_mm", 4e-5)):
                 self.assertAlmostEqual(value, wanted[column], delta=near, msg=f"{name} {column}")
             yawed = wanted["yaw_rad"] != 0.0
@@ -109,10 +110,9 @@ class Rollers(HostTest):
             "&motion\n  creepage = 'formula'\n/\n", encoding="utf-8")
         program = f"'{self.installed.prefix}/bin/faststrip' contact"
         self.shell(f"{program} gap.nml -o gap.csv --gap on_roller.csv")
-        inv2r = np.genfromtxt(self.folder / "on_roller.csv", delimiter=",", skip_header=3,
-                              comments="#")[:, 2]
+        inv2r = np.loadtxt(self.folder / "on_roller.csv", delimiter=",", skiprows=3)[:, 2]
         gap = package.profile_gap("s1002", "60e1", shift=3.0, roller_radius=500.0)
-        self.assertTrue(np.isin(inv2r[1:-1], gap.inv2r).all())
+        self.assertEqual(inv2r.tolist(), gap.inv2r.tolist())
         plain = package.profile_gap("s1002", "60e1", shift=3.0)
         self.assertEqual(gap.h.tolist(), plain.h.tolist())
         middle = np.argmin(abs(gap.y))

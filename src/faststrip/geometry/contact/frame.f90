@@ -133,6 +133,8 @@ contains
 
         n = size(pair%y)
         if (allocated(gap%y)) then
+            ! It may have been of a pair on rollers.
+            gap%of_rail = 0.0_wp
             if (size(gap%y) == n) return
             deallocate (gap%wheel, gap%across, gap%down, gap%y, gap%h, gap%inv2r, gap%of_rail, &
                         gap%slope, gap%inclination, gap%x0)

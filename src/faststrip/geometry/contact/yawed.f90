@@ -11,8 +11,8 @@ module faststrip_geometry_contact_yawed
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_geometry_contact_frame, only: contact_frame_t, frame_gap_t, sample_gap, in_track, &
-                                               frame_ahead
+    use faststrip_geometry_contact_frame, only: contact_frame_t, frame_gap_t, sample_gap, &
+                                               in_track, frame_ahead
     use faststrip_geometry_overlap, only: region_t
     use faststrip_geometry_profile, only: profile_at
     use faststrip_geometry_sheared_gap, only: turn_sheared_gap

@@ -7,9 +7,9 @@
 !> exact for a surface of revolution. The least distance of wheel and rail at each y' of a turned
 !> frame, too, is that of the outline.
 !>
-!> A roller in the rail's place has its axis along y at z = R of the track. What can touch it are the
-!> points whose normal meets that axis, `a sin(theta) + b cos(theta) = c` again; they are looked at
-!> in the frame that unrolls the roller: x = R phi ahead, the same y, z as far below its radius R.
+!> A roller in the rail's place has its axis along y at z = R of the track. What can touch it are
+!> the points whose normal meets that axis, `a sin(theta) + b cos(theta) = c` again; they are looked
+!> at in the frame that unrolls the roller: x = R phi ahead, the same y, z as far within radius R.
 !>
 !> A rail may lie beside its place, turned about its origin: what is below a wheel's point is then
 !> sought along the rail.
@@ -28,8 +28,8 @@ module faststrip_geometry_wheel_on_rail
     private
 
     public :: wheel_on_rail_t
-    public :: make_wheel_on_rail, put_on_roller, rail_height, rail_span, steepest_rail, outline_point
-    public :: rail_origin, turned, on_rail_profile, unrolled, rolled
+    public :: make_wheel_on_rail, put_on_roller, rail_height, rail_span, steepest_rail
+    public :: outline_point, rail_origin, turned, on_rail_profile, unrolled, rolled
 
     ! Distance of the rail's samples, of which regions of overlap are found, mm; between them a
     ! cubic.

@@ -19,7 +19,8 @@ module faststrip_interop_c_profiles
     implicit none
     private
 
-    public :: faststrip_pair_gap, faststrip_roller_gap, faststrip_draw_profile, faststrip_wheelset_get_gap
+    public :: faststrip_pair_gap, faststrip_roller_gap, faststrip_draw_profile
+    public :: faststrip_wheelset_get_gap
 
 contains
 

@@ -224,9 +224,9 @@ contains
 
     !> CALL FSROLL(IWORK, RADIUS, INFO)
     !>
-    !> Put the wheelset on rollers of this radius (mm) in the rails' place, both on one axis along y:
-    !> RADIUS is that at z = 0 of the track, the crown where the gauge is given; STATE(5) is the
-    !> speed of the surface there. 0: rails, as FSWNEW has them. Allocates.
+    !> Put the wheelset on rollers in the rails' place, both on one axis along y: RADIUS (mm) is
+    !> that at z = 0 of the track, the crown where the gauge is given; STATE(5) is the speed of the
+    !> surface there. 0: rails, as FSWNEW has them. Allocates.
     subroutine fsroll(iwork, radius, info) bind(c, name='fsroll_')
         integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
         real(c_double), intent(in) :: radius         !! mm
