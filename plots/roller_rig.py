@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Draw contacts of a yawed wheelset on rollers and on rails: where they are along x, spin, forces."""
+"""Draw contacts of a yawed wheelset on rollers and on rails: place along x, spin, forces."""
 
 import sys
 
 from faststrip_plots import command, picture, style
 from faststrip_plots.tables import InputError
 
-COLUMNS = ("case", "side", "contact", "x_track_mm", "cphi_rad_per_mm", "Fx_track_N", "Fx_N",
+COLUMNS = ("case", "side", "contact", "x_track_mm", "cphi_rad_per_mm", "Fx_track_N",
            "Fy_track_N")
 PANELS = (("x_track_mm", "contact ahead of the axle, mm", 1.0),
           ("cphi_rad_per_mm", "spin, 1/m", 1e3),

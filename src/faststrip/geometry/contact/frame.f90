@@ -220,7 +220,7 @@ contains
         call move_to_front(gap%y)
         call move_to_front(gap%h)
         call move_to_front(gap%inv2r)
-        if (outline%is_on_roller) call move_to_front(gap%of_rail)
+        if (outline%roller_radius > 0.0_wp) call move_to_front(gap%of_rail)
         call move_to_front(gap%slope)
         call move_to_front(gap%inclination)
         call move_to_front(gap%x0)
@@ -308,7 +308,7 @@ contains
             gap%h(i) = offset(2) + place%z*c_rail - place%y*s_rail - n_wheel
             gap%inv2r(i) = 0.5_wp*sqrt((1.0_wp + tangent**2)/(1.0_wp + pair%slope(k)**2)) &
                            /((pair%radius + pair%z(k) - pair%z_line)*along)
-            if (outline%is_on_roller) then
+            if (outline%roller_radius > 0.0_wp) then
                 gap%of_rail(i) = 0.5_wp/((pair%roller_radius - pair%z_rail - place%z) &
                                          *(c + place%slope*s))
                 gap%inv2r(i) = gap%inv2r(i) + gap%of_rail(i)

@@ -101,7 +101,7 @@ contains
 
         nearest = frame
         ahead = gap%x0(i)
-        if (outline%is_on_roller) then
+        if (outline%roller_radius > 0.0_wp) then
             nearest = frame_ahead(pair, outline%state%rail(1), frame, ahead)
             ahead = 0.0_wp
         end if

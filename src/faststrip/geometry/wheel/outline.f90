@@ -14,9 +14,10 @@
 !> `dz = eta (dphi + psi phi dpsi) + rho ((phi + S psi**2) dphi + S psi (S + 2 phi) dpsi)` down,
 !> where the terms of the yaw grow by `1/cos(theta)`, theta the angle by which the outline is ahead.
 !>
-!> Over a roller the outline depends on the height as well: it is that of a wheel that is lowered so
-!> far, and points shift by less than `(1 + |S|)` of what that changes. Of any other motion nothing
-!> is known there.
+!> Over a roller of radius R the outline depends on the height as well: it is that of a wheel that
+!> is lowered so far. A point that lies `phi_r <= psi (eta + 3/2 S rho)/R` off the top then moves by
+!> less than `(1 + |S|) phi_r (phi_r + psi + phi) dz` beside the lowering itself. Yaw moves a wheel
+!> off the top besides: by less than `(1 + |S|) (1 + eta/R) eta psi dpsi`. All of it counts twice.
 module faststrip_geometry_wheel_outline
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: most_steps, equal_within
@@ -41,6 +42,9 @@ module faststrip_geometry_wheel_outline
     real(wp), parameter :: farthest_ahead = 0.7_wp
     ! Given: 1/cos(theta) there, rounded up.
     real(wp), parameter :: most_ahead = 1.5_wp
+    ! Tuned [1]: bounds over a roller, over those above. Origin: safeguard: they are of first order;
+    ! walks at random find no point that is missed with 1.
+    real(wp), parameter :: on_roller = 2.0_wp
 
     !> The outline of a wheel over its rail; the points are those of the wheel's profile, and of
     !> those that were seen.
@@ -63,7 +67,7 @@ module faststrip_geometry_wheel_outline
         real(wp), allocatable :: lever(:)   !! longest of a cell from the wheelset's centre, mm
         real(wp), allocatable :: bend(:)    !! steepest slope of the wheel's profile in it
         real(wp) :: largest_radius = 0.0_wp !! of the wheel, mm
-        logical :: is_on_roller = .false.   !! and not on a rail?
+        real(wp) :: roller_radius = 0.0_wp  !! of the roller below it, mm; 0: a rail
         real(wp) :: lowered = 0.0_wp        !! over a roller: how far below the state, mm
     end type outline_t
 
@@ -101,7 +105,8 @@ contains
             outline%bend(cell) = maxval(abs(pair%slope(first:last)))
         end do
         outline%largest_radius = pair%radius + maxval(pair%z) - pair%z_line
-        outline%is_on_roller = pair%roller_radius > 0.0_wp
+        outline%roller_radius = pair%roller_radius
+        outline%lowered = 0.0_wp
     end subroutine reserve_outline
 
     !> The number of a point's cell.
@@ -125,7 +130,7 @@ contains
         type(wheelset_state_t), intent(in) :: state   !! as of a right wheel; its z does not count
         real(wp), intent(in) :: radius                !! mean of the nominal radii, mm
 
-        real(wp) :: roll, yaw, d_roll, d_yaw, aside, down, s, yawed, tilt
+        real(wp) :: roll, yaw, d_roll, d_yaw, aside, down, more, s, yawed, tilt
         integer :: cell
 
         associate (before => outline%state)
@@ -133,8 +138,7 @@ contains
             roll = max(abs(state%roll), abs(before%roll))
             d_yaw = abs(state%yaw - before%yaw)
             d_roll = abs(state%roll - before%roll)
-            if (outline%has_state .and. state%rail(1)%roll == before%rail(1)%roll &
-                .and. .not. outline%is_on_roller) then
+            if (outline%has_state .and. state%rail(1)%roll == before%rail(1)%roll) then
                 yawed = most_ahead*d_yaw*tan(yaw)
                 tilt = tan(yaw)**2
                 do cell = 1, size(outline%low)
@@ -147,6 +151,14 @@ contains
                            + outline%lever(cell)*(d_roll + roll*yawed) &
                            + outline%largest_radius*(d_roll*(roll + s*tilt) &
                                                      + s*yawed*(s + 2.0_wp*roll))
+                    if (outline%roller_radius > 0.0_wp) then
+                        associate (lever => outline%lever(cell))
+                            more = (1.0_wp + s)*(abs(state%rail(1)%z - before%rail(1)%z) &
+                                   + (1.0_wp + lever/outline%roller_radius)*lever*yaw*d_yaw)
+                        end associate
+                        aside = on_roller*(aside + more)
+                        down = on_roller*(down + more)
+                    end if
                     outline%way(cell) = outline%way(cell) - aside
                     outline%low(cell) = outline%low(cell) - down - outline%steep(cell)*aside
                     if (outline%way(cell) < 0.0_wp .or. s*tan(yaw) > farthest_ahead) &
@@ -161,7 +173,6 @@ contains
         outline%state = state
         outline%state%z = 0.0_wp
         outline%axes = wheelset_axes(outline%state, radius)
-        outline%lowered = 0.0_wp
     end subroutine move_outline
 
     !> The outline over a roller of a wheel that is lowered; over a rail nothing depends on it.
@@ -169,17 +180,23 @@ contains
         type(outline_t), intent(inout) :: outline !! at a state
         real(wp), intent(in) :: lowered           !! beyond the state, mm
 
-        real(wp) :: aside
+        real(wp) :: tilt, turn, more
         integer :: cell
 
-        if (.not. (outline%is_on_roller .and. abs(lowered - outline%lowered) > 0.0_wp)) return
+        if (.not. (outline%roller_radius > 0.0_wp .and. abs(lowered - outline%lowered) > 0.0_wp)) &
+            return
+        tilt = tan(abs(outline%state%yaw))
         do cell = 1, size(outline%low)
-            aside = abs(lowered - outline%lowered)*(1.0_wp + outline%bend(cell))
-            outline%way(cell) = outline%way(cell) - aside
-            outline%low(cell) = outline%low(cell) - aside*(1.0_wp + outline%steep(cell))
-            if (outline%way(cell) < 0.0_wp &
-                .or. outline%bend(cell)*tan(abs(outline%state%yaw)) > farthest_ahead) &
-                outline%low(cell) = -huge(1.0_wp)
+            associate (s => outline%bend(cell))
+                turn = tilt*(outline%lever(cell) + most_ahead*s*outline%largest_radius) &
+                       /outline%roller_radius
+                more = on_roller*(1.0_wp + s)*turn*(turn + tilt + abs(outline%state%roll)) &
+                       *abs(lowered - outline%lowered)
+                outline%way(cell) = outline%way(cell) - more
+                outline%low(cell) = outline%low(cell) - more*(1.0_wp + outline%steep(cell))
+                if (outline%way(cell) < 0.0_wp .or. s*tilt > farthest_ahead) &
+                    outline%low(cell) = -huge(1.0_wp)
+            end associate
         end do
         outline%is_seen = .false.
         outline%lowered = lowered
@@ -282,7 +299,7 @@ contains
 
         do i = 1, most_steps
             call find_lowest(outline, pair, lowest)
-            if (.not. outline%is_on_roller .or. lowest >= huge(lowest) &
+            if (.not. outline%roller_radius > 0.0_wp .or. lowest >= huge(lowest) &
                 .or. abs(lowest - outline%lowered) <= equal_within*outline%largest_radius) exit
             call lower_outline(outline, lowest)
         end do
