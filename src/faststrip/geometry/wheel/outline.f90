@@ -133,6 +133,8 @@ contains
         real(wp) :: roll, yaw, d_roll, d_yaw, aside, down, more, s, yawed, tilt
         integer :: cell
 
+        ! Where a wheel touches a roller is then found alike whatever was before.
+        call lower_outline(outline, 0.0_wp)
         associate (before => outline%state)
             yaw = max(abs(state%yaw), abs(before%yaw))
             roll = max(abs(state%roll), abs(before%roll))
