@@ -412,6 +412,9 @@ typedef struct faststrip_wheelset_setup {
     double rail_distance; /* distance of the origins of the rails' profiles, not the gauge; 0: the
                            * gauge */
     double inclination;   /* of both rails */
+    double roller_radius; /* of rollers in the rails' place, on one axis along y, at z = 0 of the
+                           * track, the crown where the gauge counts; the state's speed is that of
+                           * their surface there; 0: rails */
     double damping;       /* of contacts, s/mm: forces grow by this share of the approach rate, but
                            * never pull; that of Hunt and Crossley, 3/2 alpha; 0: none */
     double speed_floor;   /* of rolling speeds, mm/s: well below it friction grows with the slip
@@ -435,6 +438,13 @@ int faststrip_pair_gap(const faststrip_profile *wheel, const faststrip_profile *
                        const double setup[9], int capacity, int *n, double *y, double *h,
                        double *inv2r, double *inclination, double contact[6], char *text,
                        size_t length);
+
+/* The same on a roller in the rail's place: roller_radius, mm, is that at the crown; 0: a rail.
+ * The spin of a contact on it is larger by the rolling radius over that of the roller. */
+int faststrip_roller_gap(const faststrip_profile *wheel, const faststrip_profile *rail,
+                         const double setup[9], double roller_radius, int capacity, int *n,
+                         double *y, double *h, double *inv2r, double *inclination,
+                         double contact[6], char *text, size_t length);
 
 /* How a profile is read from a file, and what is done to its points then, in the order of the
  * members; nothing is repaired unasked. Fill it in with faststrip_default_reading first. */

@@ -122,6 +122,8 @@ def _declare(library: ctypes.CDLL) -> None:
         "profile_gap": [c_int, *[c_void_p] * 2, c_int, *[c_void_p] * 3, c_int, POINTER(c_int),
                         *[c_void_p] * 5],
         "pair_gap": [*[c_void_p] * 3, c_int, POINTER(c_int), *[c_void_p] * 5, c_char_p, c_size_t],
+        "roller_gap": [*[c_void_p] * 3, number, c_int, POINTER(c_int), *[c_void_p] * 5, c_char_p,
+                       c_size_t],
         "draw_profile": [c_void_p, c_int, number, c_int, *[c_void_p] * 2, c_char_p, c_size_t],
         "default_reading": [c_void_p, c_size_t],
         "read_profile": [c_char_p, c_void_p, c_int, POINTER(c_int), *[c_void_p] * 3, c_char_p,

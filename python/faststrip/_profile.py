@@ -352,7 +352,7 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
                 inclination: Optional[float] = None, cant: Optional[float] = None,
                 radius: float = 460.0, back_spacing: Optional[float] = None,
                 tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
-                step: float = 0.05, height: float = 0.6) -> Gap:
+                step: float = 0.05, height: float = 0.6, roller_radius: float = 0.0) -> Gap:
     """The gap of a right wheel on the right rail about their contact.
 
     Parameters
@@ -379,6 +379,9 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
         Between points of the gap, mm.
     height : float
         Up to which the gap is given, mm.
+    roller_radius : float
+        Of a roller in the rail's place, mm, at the crown; 0: a rail. The spin of a contact is
+        larger on it, by the rolling radius over the roller's.
 
     Returns
     -------
@@ -397,8 +400,8 @@ def profile_gap(wheel: Union[str, Profile], rail: Union[str, Profile], *, shift:
          inclination_of(inclination, cant), shift, step, height)))
     contact = np.zeros(6)
     (y, h, inv2r, turned), _ = grown(4, lambda *room: told(
-        library.faststrip_pair_gap, *map(ctypes.byref, sources), setup.ctypes.data, *room,
-        contact.ctypes.data))
+        library.faststrip_roller_gap, *map(ctypes.byref, sources), setup.ctypes.data,
+        number("roller_radius", roller_radius), *room, contact.ctypes.data))
     angle, rolling_radius, y_wheel, y_rail, *clipped = contact.tolist()
     return Gap(y, h, inv2r, turned, angle, rolling_radius, y_wheel, y_rail,
                (int(clipped[0]), int(clipped[1])))

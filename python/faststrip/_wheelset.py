@@ -62,7 +62,8 @@ class Setup(ctypes.Structure):
 
     _fields_ = [("size", c_size_t), *members(
         c_double, "radius_right", "radius_left", "back_spacing", "tread_line", "gauge",
-        "gauge_depth", "rail_distance", "inclination", "damping", "speed_floor")]
+        "gauge_depth", "rail_distance", "inclination", "roller_radius", "damping",
+        "speed_floor")]
 
 
 class Rail(ctypes.Structure):
@@ -340,6 +341,9 @@ class Wheelset:
         0.025 (1:40) for names; a Profile must have one: 0 where its points lie as in the track.
     cant : float, optional
         The same, by its older name.
+    roller_radius : float
+        Of rollers in the rails' place, on one axis along y, mm: at z = 0 of the track, the crown
+        where the gauge counts. The speed of a state is that of their surface there. 0: rails.
     damping : float
         Of contacts, s/mm: forces grow by this share of the approach rate, never below 0; that of
         Hunt and Crossley, 3/2 alpha.
@@ -366,8 +370,8 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
                  radius_left: Optional[float] = None, back_spacing: Optional[float] = None,
                  tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
                  rail_distance: Optional[float] = None, inclination: Optional[float] = None,
-                 cant: Optional[float] = None, damping: float = 0.0, speed_floor: float = 0.0,
-                 mu: float = 0.3,
+                 cant: Optional[float] = None, roller_radius: float = 0.0, damping: float = 0.0,
+                 speed_floor: float = 0.0, mu: float = 0.3,
                  friction: Friction = CONSTANT, material: Material = STEEL, normal: str = "strip",
                  tangential: str = "faststrip", strips_per_patch: int = 15,
                  points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
@@ -388,6 +392,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
                                         back_spacing, tread_line, gauge, gauge_depth,
                                         rail_distance, inclination, cant)
+        setup.roller_radius = number("roller_radius", roller_radius)
         setup.damping = number("damping", damping)
         setup.speed_floor = number("speed_floor", speed_floor)
         handle = Handle(library.faststrip_wheelset_free)

@@ -8,7 +8,7 @@ from cli_program import ROOT, LabTest, ProgramTest
 
 CASES = ROOT / "example" / "cases"
 MADE = ["worn_wheel.txt", "worn_wheel.whl", "worn_rail.ban", "near_conformal.csv",
-        "polymer_roller.csv"]
+        "polymer_roller.csv", "twin_disc.txt"]
 
 
 class Examples(ProgramTest):
@@ -48,6 +48,11 @@ class Examples(ProgramTest):
         self.assertGreater(roller["penetration_mm"], 0.1)
         # Symmetric; TANG's residual is 1e-7 of its tractions, and the friction is 0.2.
         self.assertLess(abs(roller["Fy_N"]), 1e-9 * 0.2 * roller["N_N"])
+        # Two equal crowned discs: by Hertz a circle under a mean pressure of 2/3 of pmax.
+        discs = self.example("twin_disc")
+        self.assertAlmostEqual(discs["xmax_mm"] * 2, width(discs), delta=0.05)
+        self.assertAlmostEqual(discs["pmax_MPa"] * discs["area_mm2"], 1.5 * discs["N_N"],
+                               delta=0.01 * discs["N_N"])
         for name in ("freight_25t", "tram_small_wheel"):
             self.assertGreater(self.example(name)["stick_fraction"], 0.6, name)
 

@@ -17,7 +17,7 @@ NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadm
 F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt"
                 " fserrs fsferr fslset fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast"
                 " fsints fswdft fswnew fsrail fsptch fsdamp fswslv fswset fswstr fswelm fswstw"
-                " fswcpy fswfre fsderv fswdrv"
+                " fsroll fsrprf fswcpy fswfre fsderv fswdrv"
                 " fsfric fsfrtb fswear fsstwr fscfun fsconi fslopn fslfre fslinf fslook fslwin fslcon"
                 " fslwze fswlkp fslwhl fsrdpr fsdoub fsgivn fscrep".split())
 

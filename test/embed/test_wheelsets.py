@@ -364,22 +364,22 @@ class Interfaces(HostTest):
         wheels = (parts.Points * 2)(parts.points_of("wheel", "s1002", "wheel"))
         rails = (parts.Points * 2)(parts.points_of("rail", "60e1", "rail"))
         case = parts.new_case("strip", "faststrip", 9, 15, (50, 50), False, 0.1, 0.1)
-        for size in (0, 72, 80, 87, 88, 92, 96):
+        for size in (0, 80, 88, 95, 96, 100, 104):
             setup, handle = parts.Setup(gauge=1.0), ctypes.c_void_p()
             text = ctypes.create_string_buffer(256)
             known = size == ctypes.sizeof(parts.Setup)
             self.assertEqual(library.faststrip_default_wheelset(point(setup), size),
                              0 if known else 100)
-            self.assertEqual((setup.size, setup.gauge), (88, 1435.0) if known else (0, 1.0))
-            library.faststrip_default_wheelset(point(setup), 88)
+            self.assertEqual((setup.size, setup.gauge), (96, 1435.0) if known else (0, 1.0))
+            library.faststrip_default_wheelset(point(setup), 96)
             setup.size = size
             self.assertEqual(library.faststrip_wheelset_new(
                 point(setup), wheels, rails, point(case), point(handle), text, 256),
                 0 if known else 100)
             self.assertEqual(library.faststrip_wheelset_free(point(handle)), 0)
             if not known:
-                self.assertRegex(text.value.decode(), rf"88 bytes .*got {size}: the header is "
-                                 + ("newer" if size > 88 else "older"))
+                self.assertRegex(text.value.decode(), rf"96 bytes .*got {size}: the header is "
+                                 + ("newer" if size > 96 else "older"))
 
     def test_elements_and_strips_add_up_as_those_of_the_program(self):
         package = self.import_package()

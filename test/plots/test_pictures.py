@@ -68,6 +68,12 @@ TRACTION = "# faststrip 0.1.0 rev abc\n# compiler\ncase,series,cksi,N_N,mu,Fx_N\
                                              for cksi in (1e-5, 1e-3, 1e-2)))
 FILES |= {f"out/traction_{name}.csv": TRACTION for name in ("faststrip", "fastsim", "tang")}
 FILES |= {"reference/contact/traction_curve.csv": TRACTION}
+RIG = ("# faststrip 0.1.0 rev abc\n# compiler\ncase,side,contact,x_track_mm,cphi_rad_per_mm,"
+       "Fx_track_N,Fy_track_N\n") + "".join(
+    f"{case},{side},1,{case},{1e-4 * case},{1e3 * case},{-2e3 * case}\n"
+    for case in (1, 2, 3) for side in ("left", "right"))
+FILES |= {"out/roller_rig.csv": RIG, "out/roller_rig_rails.csv": RIG,
+          "example/roller_rig_states.csv": "case,yaw_rad\n1,0\n2,0.005\n3,0.01\n"}
 LOOKED_UP = ("# faststrip 0.1.0 rev abc\n# compiler\na_mm,b_mm,N_N,mu,G_MPa,cksi,ceta,"
              "cphi_rad_per_mm,Fx_N,Fy_N,Mz_Nmm,Fx_linear_N,Fy_linear_N,Mz_linear_Nmm,Fx_cubic_N,"
              "Fy_cubic_N,Mz_cubic_Nmm\n") + "".join(
@@ -78,6 +84,7 @@ FILES |= {"out/lookup/lines.csv": LOOKED_UP, "out/lookup/contacts.csv": LOOKED_U
 PICTURES = {
     "lookup": ("out/lookup/lookup.png",),
     "traction_curve": ("out/traction_curve.png",),
+    "roller_rig": ("out/roller_rig.png",),
     "profiles": ("out/profiles_shift_0.png",),
     "patches": ("out/patch_shift_0.png", "out/pressure_shift_0.png"),
     "sweep": ("out/sweep_normal.png", "out/sweep_tangential.png"),
@@ -89,6 +96,7 @@ PICTURES = {
 COLUMNS = {
     "lookup": ("out/lookup/contacts.csv", "Fy_cubic_N"),
     "traction_curve": ("out/traction_faststrip.csv", "Fx_N"),
+    "roller_rig": ("out/roller_rig_rails.csv", "Fx_track_N"),
     "profiles": ("out/profiles_shift_0.csv", "z_mm"),
     "patches": ("out/strips_shift_0.csv", "half_length_mm"),
     "sweep": ("out/sweep.csv", "Mz_Nmm"),

@@ -14,7 +14,7 @@ MOST_ARGUMENTS = 11
 # What a host's C or F77 prescribes takes as many as it takes.
 FACES = {"faststrip_wheelset_get_elements", "fswelm", "fswstw",
          "faststrip_get_elements", "faststrip_fastsim", "fstsim", "fselem", "fsprof", "fsstwr",
-         "faststrip_profile_gap", "faststrip_pair_gap"}
+         "faststrip_profile_gap", "faststrip_pair_gap", "faststrip_roller_gap", "fsrprf"}
 # Written out for speed; the gain stands beside them.
 WRITTEN_OUT = {"far_sums", "near_sums"}
 # Procedures of other libraries.

@@ -24,8 +24,8 @@ C = (
     ("solve", "Gaps and solutions", "set_gap gap solve result"),
     ("details", "Strips, elements, derivatives, wear", "get_ wear_law"),
     ("formulas", "Hertz, FASTSIM, Kalker's coefficients", "fastsim hertz kalker"),
-    ("profiles", "Profiles", "profile pair_gap reading default_reading read_profile draw_profile "
-     "INCLINATION_UNSET"),
+    ("profiles", "Profiles", "profile pair_gap roller_gap reading default_reading read_profile "
+     "draw_profile INCLINATION_UNSET"),
     ("wheelset", "Wheelsets",
      "wheelset default_wheelset rail_state demand wheels LOCKED_WHEELS MOST_CONTACTS"),
     ("geometry", "Contact geometry and conicity", "contact_functions conicity"),

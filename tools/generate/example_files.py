@@ -5,7 +5,7 @@
     python3 tools/generate/example_files.py out/p.csv example/cases
 
 They are made up, not measured: an S1002 worn hollow, a 60E1 worn at its gauge corner, two arcs that
-nearly conform, a crowned roller on a flat rail.
+nearly conform, a crowned roller on a flat rail, the crown of a disc.
 """
 
 import csv
@@ -26,6 +26,8 @@ TAPE_CIRCLE_MM = 70.0  # from the back of the flange
 WHEEL_ARC_MM, RAIL_ARC_MM, WHEEL_RADIUS_MM = 330.0, 300.0, 460.0
 
 CROWN_MM, ROLLER_MM, ROLLER_HALF_WIDTH_MM, EDGE_MM = 150.0, 100.0, 20.0, 5.0
+
+DISC_CROWN_MM = 200.0
 
 
 def read_points(path, body):
@@ -83,6 +85,13 @@ def polymer_roller():
         yield y, crown + EDGE_MM - math.sqrt(EDGE_MM**2 - edge * edge), 0.5 / ROLLER_MM
 
 
+def disc():
+    """The crown of a disc, z down into it."""
+    for i in range(-100, 101):
+        y = 0.2 * i
+        yield y, DISC_CROWN_MM - math.sqrt(DISC_CROWN_MM**2 - y * y)
+
+
 def write(path, header, rows, separator):
     with open(path, "w", encoding="utf-8") as out:
         out.write("".join(f"{line}\n" for line in header))
@@ -114,6 +123,8 @@ def main():
           near_conformal(), ",")
     write(folder / "polymer_roller.csv", [origin + "roller of 100 mm, crown 150 mm", columns],
           polymer_roller(), ",")
+    write(folder / "twin_disc.txt", [origin + "crown of 200 mm; y, z into the disc, mm"], disc(),
+          " ")
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ module faststrip_command_settings_case_file
     use faststrip_command_settings_friction, only: read_friction_group
     use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, read_group, &
                                                 is_set, number_of, text_of, list_of, beside, &
-                                                refuse
+                                                refuse, refuse_each
     use faststrip_command_settings_methods, only: settings_t, put_setting
     use faststrip_command_settings_profiles, only: bodies_t, read_bodies
     use faststrip_command_settings_table, only: settings, value_t, a_path
@@ -71,9 +71,12 @@ contains
         type(bodies_t), intent(out) :: bodies      !! checked
 
         type(case_text_t) :: content
+        type(group_t) :: rail
 
         call read_case_text(path, .false., content)
         call read_bodies(content, .true., .true., bodies)
+        call read_group(content, 'rail', .true., rail)
+        call refuse_each(rail, ['roller_radius_mm'], 'is for contact, sweep and wheelset only')
     end subroutine read_bodies_of
 
     !> Read a group whose values each go to one place of a case: `material` or `numerics`.

@@ -165,6 +165,7 @@ contains
             track%gauge = number_of(group, 'gauge_mm', track%gauge)
             track%gauge_depth = number_of(group, 'gauge_depth_mm', track%gauge_depth)
             track%rail_distance = number_of(group, 'rail_distance_mm', track%rail_distance)
+            track%roller_radius = number_of(group, 'roller_radius_mm', track%roller_radius)
             if (is_set(group, 'rail_distance_mm') .and. &
                 (is_set(group, 'gauge_mm') .or. is_set(group, 'gauge_depth_mm'))) &
                 call refuse(group, 'rail_distance_mm', &

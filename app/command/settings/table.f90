@@ -132,7 +132,10 @@ module faststrip_command_settings_table
                   quantity=of_gauge_depth, default='14'), &
         setting_t('rail', 'rail_distance_mm', a_number, &
                   'of the origins of the rail profiles, instead of the gauge', range=above_0, &
-                  quantity=of_gauge)]
+                  quantity=of_gauge), &
+        setting_t('rail', 'roller_radius_mm', a_number, 'of rollers in the place of rails, at' // &
+                  ' the crown, or at z = 0 with `rail_distance_mm`; 0: rails', range=from_0, &
+                  default='0')]
 
     ! How the file of a profile is to be read.
     type(setting_t), parameter :: of_profiles(*) = [ &

@@ -43,17 +43,18 @@ contains
             state = last_state
             if (side == side_left) state = mirrored_state(state)
             state%z = result%wheel(side)%z
-            call put_wheel(writer, case, model%pair(side), wheelset_axes(state, model%radius), &
-                           side == side_left)
+            call put_wheel(writer, case, model%pair(side), state%rail(side_right), &
+                           wheelset_axes(state, model%radius), side == side_left)
             call put_rail(writer, case, model%pair(side), state%rail(side_right), side == side_left)
         end do
     end subroutine put_wheelset_profiles
 
     ! The outline of a wheel.
-    subroutine put_wheel(writer, case, pair, axes, is_left)
+    subroutine put_wheel(writer, case, pair, rail, axes, is_left)
         type(csv_writer_t), intent(inout) :: writer
         character(len=*), intent(in) :: case
         type(wheel_on_rail_t), intent(in) :: pair
+        type(rail_state_t), intent(in) :: rail
         type(wheelset_axes_t), intent(in) :: axes
         logical, intent(in) :: is_left
 
@@ -62,8 +63,8 @@ contains
         integer :: i
 
         do i = 1, size(pair%y)
-            call outline_point(pair, axes, pair%y(i), pair%z(i), pair%slope(i), point, slope, &
-                               is_there)
+            call outline_point(pair, rail, axes, pair%y(i), pair%z(i), pair%slope(i), point, &
+                               slope, is_there)
             if (is_there) call put_point(writer, case, 'wheel', is_left, point(2:3), &
                                          [pair%y(i), pair%z(i)])
         end do

@@ -10,9 +10,10 @@ module faststrip_lab_grid_example_cases
     public :: example_names, read_example
 
     !> Names of their case files.
-    character(len=*), parameter :: example_names(10) = [character(len=20) :: 'tread_straight', &
+    character(len=*), parameter :: example_names(11) = [character(len=20) :: 'tread_straight', &
         'curve_flange_root', 'two_point_contact', 'worn_wheel', 'kink_r300_r80', 'freight_25t', &
-        'tram_small_wheel', 'polymer_roller', 'near_conformal', 'locomotive_traction']
+        'tram_small_wheel', 'polymer_roller', 'near_conformal', 'locomotive_traction', &
+        'twin_disc']
 
 contains
 

@@ -10,7 +10,8 @@
 module faststrip_geometry_overlap
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height
-    use faststrip_geometry_wheel_outline, only: outline_t, see_points, may_be_lower, cell_end
+    use faststrip_geometry_wheel_outline, only: outline_t, lower_outline, see_points, &
+                                                may_be_lower, cell_end
     implicit none
     private
 
@@ -31,7 +32,7 @@ module faststrip_geometry_overlap
         real(wp) :: right(2) = 0.0_wp  !! y, z of the rail where it ends, mm
         real(wp) :: depth = 0.0_wp     !! largest overlap, vertical, mm
         real(wp) :: weight = 0.0_wp    !! mm**3.5
-        real(wp) :: x = 0.0_wp         !! weighted mean, in the track, mm
+        real(wp) :: x = 0.0_wp         !! weighted mean, in the track, mm; on a roller along it
         real(wp) :: y = 0.0_wp         !! weighted mean, in the track, mm
         real(wp) :: angle = 0.0_wp     !! weighted mean of the rail's inclination, rad
     end type region_t
@@ -56,6 +57,7 @@ contains
         type(region_t) :: region
         integer :: i, previous, top
 
+        call lower_outline(outline, lowered)
         n = 0
         previous = 0
         top = 1

@@ -8,7 +8,7 @@ module faststrip_geometry_rigid_contact
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_halvings, largest_place
+    use faststrip_base_limits, only: most_halvings, largest_place, equal_within
     use faststrip_geometry_gauge_fit, only: check_fit, check_tape_circles
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
@@ -18,7 +18,7 @@ module faststrip_geometry_rigid_contact
 
     public :: wheelset_t, track_t, rigid_contact_t
     public :: find_rigid_contact, find_rigid_contacts, contact_force, shift_creepage
-    public :: place_rail, creepage_set_a, creepage_set_b, largest_length
+    public :: place_rail, check_roller, creepage_set_a, creepage_set_b, largest_length
     public :: scan_step
 
     !> The wheelset; both wheels carry the same profile.
@@ -39,6 +39,8 @@ module faststrip_geometry_rigid_contact
         real(wp) :: gauge_depth = 14.0_wp !! depth below the crown where it is measured, mm
         real(wp) :: rail_distance = 0.0_wp !! distance of the origins of the two rail profiles, mm;
                                            !! 0 where the gauge counts
+        real(wp) :: roller_radius = 0.0_wp !! of rollers in the rails' place, at z = 0 of the track,
+                                           !! mm; 0: rails
     end type track_t
 
     !> One point of contact.
@@ -51,6 +53,7 @@ module faststrip_geometry_rigid_contact
         real(wp) :: gamma = 0.0_wp   !! contact angle, atan(dz/dy), rad; negative on the tread
         ! Given: dimensions of the reference's wheelset.
         real(wp) :: radius = 0.0_wp  !! rolling radius at the contact, mm
+        real(wp) :: roller_radius = 0.0_wp !! of the roller there, mm; 0: of a rail
     end type rigid_contact_t
 
     !> The signs of Table 2 taken literally: cksi = Sx, not consistent with its spin. Only to
@@ -87,12 +90,12 @@ contains
                                                        !! `st_out_of_range`: profiles too short;
                                                        !! `st_no_contact`: they do not overlap or
                                                        !! touch at the end of a profile
-        real(wp) :: offset, first, last
+        real(wp) :: offset, first, last, z_crown
         logical :: found
 
         call check_setup(wheelset, track, shift, status)
         if (status%code /= 0) return
-        call rail_offset(wheel, rail, wheelset, track, shift, offset, status)
+        call rail_offset(wheel, rail, wheelset, track, shift, offset, z_crown, status)
         if (status%code /= 0) return
         ! y is the coordinate of the rail profile; the wheel's is y + offset.
         first = max(rail%y_first, wheel%y_first - offset)
@@ -110,6 +113,8 @@ contains
             return
         end if
         call complete_contact(wheel, rail, wheelset, shift, offset, contact, status)
+        if (is_roller(track)) &
+            contact%roller_radius = track%roller_radius + z_crown - contact%z_rail
     end subroutine find_rigid_contact
 
     !> Where the distance of wheel and rail is smallest between two places; none is found if that is
@@ -150,7 +155,8 @@ contains
             left = middle
             middle = right
         end do
-        found = .not. best > lowest
+        ! Samples of two arcs may lie lower by rounding.
+        found = .not. best - equal_within > lowest
 
     contains
 
@@ -237,6 +243,13 @@ contains
         is_apart = track%rail_distance /= 0.0_wp
     end function is_apart
 
+    ! Are there rollers in the place of rails?
+    pure logical function is_roller(track)
+        type(track_t), intent(in) :: track
+
+        is_roller = track%roller_radius /= 0.0_wp
+    end function is_roller
+
     ! Positive, finite, and no more than a kilometre.
     pure subroutine check_length(name, value, status)
         character(len=*), intent(in) :: name
@@ -254,22 +267,23 @@ contains
     end subroutine check_length
 
     ! What to add to a coordinate of the rail profile to get that of the wheel profile.
-    pure subroutine rail_offset(wheel, rail, wheelset, track, shift, offset, status)
+    pure subroutine rail_offset(wheel, rail, wheelset, track, shift, offset, z_crown, status)
         type(profile_t), intent(in) :: wheel, rail
         type(wheelset_t), intent(in) :: wheelset
         type(track_t), intent(in) :: track
         real(wp), intent(in) :: shift
-        real(wp), intent(out) :: offset
+        real(wp), intent(out) :: offset, z_crown
         type(status_t), intent(out) :: status
         real(wp) :: y_origin
 
         offset = 0.0_wp
+        z_crown = 0.0_wp
         call clear_status(status)
         if (wheel%y_last <= wheel%y_first .or. rail%y_last <= rail%y_first) then
             call set_status(status, st_bad_argument, 'there is no wheel or no rail profile')
             return
         end if
-        call place_rail(wheel, rail, wheelset, track, y_origin, status)
+        call place_rail(wheel, rail, wheelset, track, y_origin, status, z_crown)
         if (status%code /= 0) return
         offset = y_origin - (0.5_wp*wheelset%back_spacing + wheelset%tread_line + shift)
     end subroutine rail_offset
@@ -282,19 +296,20 @@ contains
         type(wheelset_t), intent(in) :: wheelset  !! mm
         type(track_t), intent(in) :: track        !! mm
         real(wp), intent(out) :: y_origin         !! from the track centre to the field side, mm
-        type(status_t), intent(out) :: status     !! `st_bad_argument`: they do not fit;
-                                                  !! `st_out_of_range`: no gauge face
+        type(status_t), intent(out) :: status     !! `st_bad_argument`: they do not fit, or there
+                                                  !! is no such roller; `st_out_of_range`: no
+                                                  !! gauge face
         real(wp), intent(out), optional :: z_crown !! of the profile, mm; 0 where the distance of
                                                    !! the rails counts
 
-        real(wp) :: y_gauge, top
+        real(wp) :: y_gauge, top, bottom
 
         y_origin = 0.0_wp
         if (present(z_crown)) z_crown = 0.0_wp
         call clear_status(status)
         if (is_apart(track)) call check_length('distance of the rails', track%rail_distance, status)
         if (is_error(status)) return
-        call find_gauge_point(rail, track%gauge_depth, y_gauge, status, top)
+        call find_gauge_point(rail, track%gauge_depth, y_gauge, status, top, bottom)
         if (is_apart(track)) then
             y_origin = 0.5_wp*track%rail_distance
             ! Without a gauge face nothing is known of how they fit.
@@ -308,27 +323,46 @@ contains
             y_origin = 0.5_wp*track%gauge - y_gauge
             if (present(z_crown)) z_crown = top
             call check_fit(wheel, wheelset%back_spacing, wheelset%tread_line, track%gauge, status)
+            bottom = bottom - top
         end if
+        if (is_roller(track)) call check_roller(track%roller_radius, bottom, status)
     end subroutine place_rail
+
+    !> Refuse the radius of a roller whose profile would reach its axis.
+    pure subroutine check_roller(radius, depth, status)
+        real(wp), intent(in) :: radius          !! at z = 0 of the track, mm
+        real(wp), intent(in) :: depth           !! largest z of its profile in the track, mm
+        type(status_t), intent(inout) :: status !! `st_bad_argument`
+
+        call check_length('radius of the rollers (0: rails)', radius, status)
+        if (is_error(status)) return
+        if (radius <= depth) &
+            call set_status(status, st_bad_argument, 'radius of the rollers must be above the ' // &
+                            trim(number_text(depth)) // ' mm that their profile reaches down, ' // &
+                            'got ' // trim(number_text(radius)) // ' mm')
+    end subroutine check_roller
 
     !> The point of the gauge face at a depth below the highest point of the rail, or the innermost
     !> one above it where the face overhangs.
-    pure subroutine find_gauge_point(rail, depth, y_gauge, status, z_crown)
+    pure subroutine find_gauge_point(rail, depth, y_gauge, status, z_crown, z_bottom)
         type(profile_t), intent(in) :: rail   !! inclined
         real(wp), intent(in) :: depth         !! below the crown, mm
         real(wp), intent(out) :: y_gauge      !! on the profile, mm
         type(status_t), intent(out) :: status !! `st_out_of_range`: it does not reach so deep
-        real(wp), intent(out), optional :: z_crown !! highest point of the profile, mm
+        real(wp), intent(out) :: z_crown      !! highest point of the profile, mm
+        real(wp), intent(out) :: z_bottom     !! its lowest sample, mm
         real(wp) :: step, z, dz, d2z, top, low, high, y
         integer :: i, n, i_top
 
         n = max(ceiling((rail%y_last - rail%y_first)/scan_step), 2)
         step = (rail%y_last - rail%y_first)/real(n, wp)
         top = huge(top)
+        z_bottom = -huge(top)
         i_top = 0
         do i = 0, n
             call profile_at(rail, min(rail%y_first + real(i, wp)*step, rail%y_last), z, dz, d2z, &
                             status)
+            z_bottom = max(z_bottom, z)
             if (z < top) then
                 top = z
                 i_top = i
@@ -347,7 +381,7 @@ contains
                 high = y
             end if
         end do
-        if (present(z_crown)) z_crown = top
+        z_crown = top
         ! From the crown inwards to the first sample below the depth.
         y_gauge = 0.0_wp
         do i = i_top - 1, 0, -1
@@ -433,7 +467,9 @@ contains
 
     !> Creepages of the right wheel of a wheelset that rolls straight ahead, shifted, on rigid
     !> axles: `cksi = (rR - rL)/(2 r0)`, `ceta = 0`, `cphi = -sin(gamma)/r0`, of the rail surface
-    !> relative to the wheel's. Table 2 has `|Sx| = |cksi|` and `Phi = |cphi|`.
+    !> relative to the wheel's. Table 2 has `|Sx| = |cksi|` and `Phi = |cphi|`. Rollers on one axle
+    !> of their own, with the radii RR and RL at the contacts and the mean R of these, take
+    !> `(RR - RL)/(2 R)` from cksi and add `-sin(gamma)/R` to cphi.
     pure function shift_creepage(wheelset, right, left, signs) result(creepage)
         type(wheelset_t), intent(in) :: wheelset   !! mm
         type(rigid_contact_t), intent(in) :: right !! contact of the right wheel
@@ -445,5 +481,11 @@ contains
         if (signs == creepage_set_a) creepage%cksi = -creepage%cksi
         creepage%ceta = 0.0_wp
         creepage%cphi = -sin(right%gamma)/wheelset%radius
+        if (.not. right%roller_radius > 0.0_wp) return
+        associate (both => right%roller_radius + left%roller_radius)
+            creepage%cksi = creepage%cksi + merge(1.0_wp, -1.0_wp, signs == creepage_set_a) &
+                            *(right%roller_radius - left%roller_radius)/both
+            creepage%cphi = creepage%cphi - 2.0_wp*sin(right%gamma)/both
+        end associate
     end function shift_creepage
 end module faststrip_geometry_rigid_contact

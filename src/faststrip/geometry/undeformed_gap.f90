@@ -49,9 +49,10 @@ contains
     !> `y' = (Y - Yc) cos(gamma) + (Z - Zc) sin(gamma)`; the gap is the distance of rail and
     !> wheel along the turned normal and `inv2r = 1/(2 R)`,
     !> `R = r cos(alpha - gamma)/cos(alpha)` with the local rolling radius r and slope angle
-    !> alpha of the wheel; `inclination` is the mean slope angle of the two less gamma. Samples
-    !> stand at the multiples of `step`, from the contact outwards as far as the gap stays within
-    !> `height` and both profiles go on, as functions of y'.
+    !> alpha of the wheel; of a roller the same is added, with those of the roller; `inclination`
+    !> is the mean slope angle of the two less gamma. Samples stand at the multiples of `step`,
+    !> from the contact outwards as far as the gap stays within `height` and both profiles go on,
+    !> as functions of y'.
     subroutine make_gap(wheel, rail, wheelset, contact, step, height, gap, status)
         type(profile_t), intent(in) :: wheel          !! wheel profile
         type(profile_t), intent(in) :: rail           !! rail profile, inclined
@@ -97,7 +98,7 @@ contains
             integer, intent(in) :: side
             integer, intent(out) :: n
             type(inclined_point_t) :: on_wheel, on_rail
-            real(wp) :: y_turned, radius
+            real(wp) :: y_turned, radius, of_roller, bend
             logical :: found
             integer :: j
 
@@ -117,9 +118,15 @@ contains
                 radius = (wheelset%radius + on_wheel%z - z_line) &
                          *(cos(contact%gamma) + on_wheel%dz*sin(contact%gamma))
                 if (radius < smallest_step) exit
+                bend = 0.5_wp/radius
+                if (contact%roller_radius > 0.0_wp) then
+                    of_roller = (contact%roller_radius + contact%z_rail - on_rail%z)*on_rail%along
+                    if (of_roller < smallest_step) exit
+                    bend = bend + 0.5_wp/of_roller
+                end if
                 n = j
                 h(side*j) = on_rail%n - on_wheel%n
-                inv2r(side*j) = 0.5_wp/radius
+                inv2r(side*j) = bend
                 inclination(side*j) = 0.5_wp*(atan(on_wheel%dz) + atan(on_rail%dz)) - contact%gamma
             end do
         end subroutine sample_side

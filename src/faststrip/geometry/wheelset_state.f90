@@ -17,7 +17,7 @@ module faststrip_geometry_wheelset_state
     implicit none
     private
 
-    public :: wheelset_state_t, wheelset_axes_t, rail_state_t, pure_rolling
+    public :: wheelset_state_t, wheelset_axes_t, rail_state_t, on_roller_t, pure_rolling
     public :: mirrored_state, reversed_state, rolling_state, resting_state, is_at_rest, &
               check_state, wheelset_axes, rigid_creepage, approach_rate, rail_velocity, cross
 
@@ -58,6 +58,13 @@ module faststrip_geometry_wheelset_state
         real(wp) :: curvature = 0.0_wp  !! of the track, positive to the right, 1/mm
         type(rail_state_t) :: rail(2)   !! right, left
     end type wheelset_state_t
+
+    !> The place of a contact on a roller, whose axis lies along y of the track.
+    type :: on_roller_t
+        real(wp) :: radius = 0.0_wp !! of the roller there, mm; 0: a rail
+        real(wp) :: turn = 0.0_wp   !! by which it is ahead, about the axis, rad
+        real(wp) :: rate = 0.0_wp   !! at which the roller turns, rad/s
+    end type on_roller_t
 
     !> The wheelset's frame in the track.
     type :: wheelset_axes_t
@@ -216,13 +223,15 @@ contains
     !> Creepages of rigid bodies at a point of the wheel: velocity of the rail relative to the wheel
     !> over the rolling speed, in the contact frame, turned by the contact angle about x. The
     !> rolling speed is the mean of that of travel and that of the wheel's surface about its axle,
-    !> the right wheel's.
+    !> the right wheel's. On a roller the wheelset stays where it is: its surface's speed is that of
+    !> travel, and it turns, too.
     !>
     !> Where a wheelset starts or stops the ratio has no bound, but forces have a limit: all slides,
     !> and only the proportions of the velocities count. So the speed is at least a millionth of
     !> what slides: creepages times the speed are always the velocities. With a floor the speed is
     !> the root of the sum of its square and the floor's, so that forces vanish with the velocities.
-    pure subroutine rigid_creepage(state, axes, point, angle, creepage, speed, moving, floor)
+    pure subroutine rigid_creepage(state, axes, point, angle, creepage, speed, moving, floor, &
+                                   roller)
         type(wheelset_state_t), intent(in) :: state  !! mm, rad, s; its pitch rate is said
         type(wheelset_axes_t), intent(in) :: axes    !! of the state
         real(wp), intent(in) :: point(3)             !! of the wheel, in the track, mm
@@ -231,8 +240,10 @@ contains
         real(wp), intent(out) :: speed               !! rolling speed, mm/s
         real(wp), intent(in), optional :: moving(3)  !! velocity of the rail there, mm/s
         real(wp), intent(in), optional :: floor      !! of the speed, mm/s
+        type(on_roller_t), intent(in), optional :: roller !! below the wheel, if there is one
 
-        real(wp) :: arm(3), pitch(3), turning(3), travel(3), velocity(3), slip(3), fastest
+        real(wp) :: arm(3), pitch(3), turning(3), travel(3), rolled(3), velocity(3), slip(3), &
+            fastest
 
         arm = point - axes%centre
         pitch = (state%pitch_rate - 0.5_wp*state%pitch_rate_difference)*axes%axle
@@ -242,14 +253,17 @@ contains
         travel = [state%speed, state%y_rate, state%z_rate] &
                  + cross([0.0_wp, 0.0_wp, state%speed*state%curvature], axes%centre) &
                  + cross(turning, arm)
-        velocity = travel + cross(pitch, arm)
+        rolled = cross(pitch, arm)
+        velocity = travel + rolled
         turning = turning + pitch
-        associate (rolled => cross(pitch, arm))
-            speed = 0.5_wp*(abs(travel(1)) + abs(rolled(1)))
-        end associate
+        if (present(roller)) then
+            if (roller%radius > 0.0_wp) call roll_along(roller, state%speed, travel, rolled, &
+                                                        velocity, turning)
+        end if
+        speed = 0.5_wp*(abs(travel(1)) + abs(rolled(1)))
         if (present(floor)) speed = hypot(speed, floor)
         creepage = creepage_t()
-        if (present(moving)) velocity = velocity - moving
+        if (present(moving)) velocity = velocity - along_roller(moving, roller)
         slip = -[velocity(1), velocity(2)*cos(angle) + velocity(3)*sin(angle), &
                  turning(3)*cos(angle) - turning(2)*sin(angle)]
         fastest = maxval(abs(slip))
@@ -264,20 +278,55 @@ contains
         creepage = creepage_t(slip(1), slip(2), slip(3))
     end subroutine rigid_creepage
 
+    ! Velocities of a wheel that travels, as those of one on a roller, in the frame turned to their
+    ! contact.
+    pure subroutine roll_along(roller, speed, travel, rolled, velocity, turning)
+        type(on_roller_t), intent(in) :: roller
+        real(wp), intent(in) :: speed ! of travel, which the wheel does not have, mm/s
+        real(wp), intent(inout) :: travel(3), rolled(3), velocity(3), turning(3) ! mm/s, rad/s
+
+        real(wp) :: shown(3)
+
+        shown = [roller%radius*roller%rate, 0.0_wp, 0.0_wp]
+        travel(1) = travel(1) - speed
+        velocity(1) = velocity(1) - speed
+        turning(2) = turning(2) - roller%rate
+        travel = along_roller(travel, roller) + shown
+        velocity = along_roller(velocity, roller) + shown
+        rolled = along_roller(rolled, roller)
+        turning = along_roller(turning, roller)
+    end subroutine roll_along
+
+    ! A vector of the track in the frame that is turned to a contact on a roller; as it is on rails.
+    pure function along_roller(vector, roller) result(along)
+        real(wp), intent(in) :: vector(3)
+        type(on_roller_t), intent(in), optional :: roller
+        real(wp) :: along(3)
+
+        along = vector
+        if (.not. present(roller)) return
+        if (.not. abs(roller%turn) > 0.0_wp) return
+        associate (c => cos(roller%turn), s => sin(roller%turn))
+            along([1, 3]) = [vector(1)*c + vector(3)*s, vector(3)*c - vector(1)*s]
+        end associate
+    end function along_roller
+
     !> How fast a wheel and its rail approach each other at a point, along the normal, mm/s. Neither
     !> travel nor pitch count: a rail is the same along x, and a wheel all around.
-    pure real(wp) function approach_rate(state, axes, point, angle, moving) result(rate)
+    pure real(wp) function approach_rate(state, axes, point, angle, moving, roller) result(rate)
         type(wheelset_state_t), intent(in) :: state !! mm, rad, s
         type(wheelset_axes_t), intent(in) :: axes   !! of the state
         real(wp), intent(in) :: point(3)            !! of the wheel, in the track, mm
         real(wp), intent(in) :: angle               !! contact angle, rad
         real(wp), intent(in) :: moving(3)           !! velocity of the rail there, mm/s
+        type(on_roller_t), intent(in), optional :: roller !! below the wheel, if there is one
 
         real(wp) :: velocity(3)
 
         velocity = [0.0_wp, state%y_rate, state%z_rate] - moving &
                    + cross(state%roll_rate*axes%ahead + state%yaw_rate*axes%down, &
                            point - axes%centre)
+        velocity = along_roller(velocity, roller)
         rate = velocity(3)*cos(angle) - velocity(2)*sin(angle)
     end function approach_rate
 

@@ -27,20 +27,23 @@ contains
 
     !> The gap of a wheel on a rail, both given by points along the curve, y to the field side, z
     !> down, of the wheel from the nominal rolling circle.
-    subroutine gap_of_points(y_wheel, z_wheel, y_rail, z_rail, setup, gap, contact, status)
+    subroutine gap_of_points(y_wheel, z_wheel, y_rail, z_rail, setup, gap, contact, status, &
+                             roller_radius)
         real(wp), intent(in), target :: y_wheel(:), z_wheel(:) !! mm
         real(wp), intent(in), target :: y_rail(:), z_rail(:)   !! mm
         real(wp), intent(in) :: setup(n_setup)         !! as `gap_of_profiles`
         type(gap_t), intent(out) :: gap                !! mm, mm, 1/mm, rad
         real(wp), intent(inout) :: contact(n_contact)  !! as `gap_of_profiles`
         type(status_t), intent(out) :: status          !! those of `gap_of_profiles`
+        real(wp), intent(in), optional :: roller_radius !! of a roller in the rail's place, mm
 
         call gap_of_profiles(profile_source_t(y=y_wheel, z=z_wheel), &
-                             profile_source_t(y=y_rail, z=z_rail), setup, gap, contact, status)
+                             profile_source_t(y=y_rail, z=z_rail), setup, gap, contact, status, &
+                             roller_radius)
     end subroutine gap_of_points
 
     !> The gap of a wheel on a rail, given by names or by points.
-    subroutine gap_of_profiles(of_wheel, of_rail, setup, gap, contact, status)
+    subroutine gap_of_profiles(of_wheel, of_rail, setup, gap, contact, status, roller_radius)
         type(profile_source_t), intent(in) :: of_wheel !! as a right one
         type(profile_source_t), intent(in) :: of_rail  !! as a right one
         real(wp), intent(in) :: setup(n_setup)
@@ -54,6 +57,8 @@ contains
             !! points that were left out of the wheel and of the rail
         type(status_t), intent(out) :: status
             !! those of `make_profile`, `find_rigid_contact`, `make_gap`
+        real(wp), intent(in), optional :: roller_radius
+            !! of a roller in the rail's place, at the crown, mm; 0: a rail
 
         type(environment_t) :: environment
 
@@ -71,6 +76,7 @@ contains
         subroutine solve_geometry()
             type(profile_t) :: wheel, rail
             type(wheelset_t) :: wheelset
+            type(track_t) :: track
             type(rigid_contact_t) :: rigid
             integer :: n_out(2)
 
@@ -83,8 +89,9 @@ contains
             if (.not. abs(setup(1)) > 0.0_wp) &
                 call find_back_spacing(setup(4), 0.0_wp, wheelset%back_spacing, status)
             if (is_error(status)) return
-            call find_rigid_contact(wheel, rail, wheelset, track_t(setup(4), setup(5)), setup(7), &
-                                    rigid, status)
+            track = track_t(setup(4), setup(5))
+            if (present(roller_radius)) track%roller_radius = roller_radius
+            call find_rigid_contact(wheel, rail, wheelset, track, setup(7), rigid, status)
             if (is_error(status)) return
             contact(:4) = [rigid%gamma, rigid%radius, rigid%y_wheel, rigid%y_rail]
             call make_gap(wheel, rail, wheelset, rigid, setup(8), setup(9), gap, status)

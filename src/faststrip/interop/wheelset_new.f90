@@ -39,6 +39,7 @@ module faststrip_interop_wheelset_new
         real(c_double) :: rail_distance !! of the rails' origins, mm; 0: as the gauge says
         real(c_double) :: inclination
             !! of the rails, its tangent; 999: not said, 1:40 of names, an error of points
+        real(c_double) :: roller_radius !! of rollers in the rails' place, mm; 0: rails
     end type dimensions_t
 
     !> Where a profile comes from: a name, or points; neither for one that is as the right one.
@@ -57,7 +58,7 @@ contains
 
         dimensions = dimensions_t(wheelset%radius, wheelset%radius, wheelset%back_spacing, &
                                   wheelset%tread_line, track%gauge, track%gauge_depth, &
-                                  track%rail_distance, unset_inclination)
+                                  track%rail_distance, unset_inclination, track%roller_radius)
     end function default_dimensions
 
     !> Make a wheelset on its track. The one allocation.
@@ -123,12 +124,12 @@ contains
         associate (d => dimensions)
             if (.not. all(ieee_is_finite([d%radius_right, d%radius_left, d%back_spacing, &
                                           d%tread_line, d%gauge, d%gauge_depth, d%rail_distance, &
-                                          d%inclination]))) then
+                                          d%inclination, d%roller_radius]))) then
                 call set_status(status, st_not_finite, 'the setup must be finite numbers')
                 return
             end if
             wheelset = wheelset_t(d%back_spacing, d%tread_line, d%radius_right)
-            track = track_t(d%gauge, d%gauge_depth, d%rail_distance)
+            track = track_t(d%gauge, d%gauge_depth, d%rail_distance, d%roller_radius)
             if (.not. abs(d%back_spacing) > 0.0_wp) &
                 call find_back_spacing(track%gauge, track%rail_distance, wheelset%back_spacing, &
                                        status)

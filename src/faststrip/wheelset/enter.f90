@@ -85,6 +85,8 @@ contains
                         number_text(lookup%nu))
         else if (abs(model%pair(side_right)%mark - model%pair(side_left)%mark) > 0.0_wp) then
             call refuse('a lookup table is for two wheels and rails that are alike')
+        else if (any(model%pair%roller_radius > 0.0_wp)) then
+            call refuse('a lookup table is for rails, not for rollers')
         else if (model%case%friction%kind /= friction_constant .or. &
                  model%case%friction%slope_factor < 1.0_wp .or. &
                  model%case%friction%table%n > 0) then

@@ -16,8 +16,8 @@ module faststrip_wheelset_solve
     use faststrip_geometry_gap, only: gap_t
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_profile, only: profile_t
-    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
-    use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail
+    use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, check_roller
+    use faststrip_geometry_wheel_on_rail, only: make_wheel_on_rail, put_on_roller
     use faststrip_geometry_wheel_outline, only: reserve_outline
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state, reversed_state, &
                                                  rolling_state, resting_state
@@ -37,7 +37,7 @@ module faststrip_wheelset_solve
     implicit none
     private
 
-    public :: make_wheelset, set_damping, reserve_wheelset, solve_wheelset
+    public :: make_wheelset, set_damping, set_roller, reserve_wheelset, solve_wheelset
 
     ! Tuned [1]: of the load, how near a method comes whose height strips find. Origin: chosen: far
     ! below what methods differ by.
@@ -100,6 +100,50 @@ contains
                             '0 mm/s, got ' // number_text(speed_floor))
         end if
     end subroutine check_damping
+
+    !> Put a wheelset on rollers, both on one axis along y, or back on rails. It has to be reserved
+    !> anew.
+    pure subroutine set_roller(model, radius, status)
+        type(wheelset_model_t), intent(inout) :: model !! made; changed unless there is an error
+        real(wp), intent(in) :: radius                 !! at z = 0 of the track, mm; 0: rails
+        type(status_t), intent(out) :: status
+            !! `st_bad_argument`: below 0, no number, not above the depth of the profiles
+
+        integer :: side
+
+        call clear_status(status)
+        do side = side_right, side_left
+            if (radius /= 0.0_wp) &
+                call check_roller(radius, maxval(model%pair(side)%sample), status)
+        end do
+        if (is_error(status)) return
+        do side = side_right, side_left
+            call put_on_roller(model%pair(side), radius)
+        end do
+    end subroutine set_roller
+
+    ! What a wheelset on rollers, whose rails are all of revolution about y, cannot have.
+    subroutine check_on_rollers(model, state, status)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheelset_state_t), intent(in) :: state
+        type(status_t), intent(inout) :: status
+
+        if (is_error(status) .or. .not. any(model%pair%roller_radius > 0.0_wp)) return
+        call check_none('curvature', state%curvature, '1/mm')
+        call check_none('roll of a rail', maxval(abs(state%rail%roll)), 'rad')
+        call check_none('roll_rate of a rail', maxval(abs(state%rail%roll_rate)), 'rad/s')
+
+    contains
+
+        subroutine check_none(name, value, unit)
+            character(len=*), intent(in) :: name, unit
+            real(wp), intent(in) :: value
+
+            if (abs(value) > 0.0_wp .and. .not. is_error(status)) &
+                call set_status(status, st_bad_argument, name // ' of a wheelset on rollers ' // &
+                                'must be 0 ' // unit // ', got ' // number_text(value))
+        end subroutine check_none
+    end subroutine check_on_rollers
 
     !> Allocate for a model; the only allocation.
     subroutine reserve_wheelset(workspace, model, status)
@@ -172,6 +216,7 @@ contains
             return
         end if
         call check_demand(state, demand, status)
+        call check_on_rollers(model, state, status)
         if (is_error(status)) return
         call check_workspace(model, workspace, status)
         if (is_error(status)) return

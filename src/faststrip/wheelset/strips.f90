@@ -12,7 +12,8 @@ module faststrip_wheelset_strips
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame
     use faststrip_geometry_contact_yawed, only: find_frame_gap
     use faststrip_geometry_profile, only: profile_at
-    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height, on_rail_profile
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height, on_rail_profile, &
+                                                unrolled
     use faststrip_geometry_wheelset_state, only: rail_state_t
     use faststrip_normal_strips, only: contact_strips_t, reserve_strips, copy_strips, mirror_strips
     use faststrip_numerics_reversal, only: reverse, reverse_negated
@@ -168,15 +169,16 @@ contains
         real(wp), intent(in) :: along
         real(wp) :: point(2)
 
-        real(wp) :: y, z, slope, residual
+        real(wp) :: origin(3), y, z, slope, residual
         logical :: is_there
         integer :: i
 
+        origin = unrolled(pair, rail, frame%origin)
         associate (c => cos(frame%angle), s => sin(frame%angle))
-            y = frame%origin(2) + along*c
+            y = origin(2) + along*c
             do i = 1, most_steps
                 call rail_height(pair, rail, y, z, slope, is_there)
-                residual = along - (y - frame%origin(2))*c - (z - frame%origin(3))*s
+                residual = along - (y - origin(2))*c - (z - origin(3))*s
                 if (.not. is_there .or. abs(residual) <= equal_within*(1.0_wp + abs(along))) exit
                 y = y + residual/(c + slope*s)
             end do

@@ -100,6 +100,7 @@ module faststrip_wheelset_types
         type(status_t) :: status                    !! of its solution
         real(wp) :: place(3) = 0.0_wp               !! reference point in the track, mm
         real(wp) :: angle = 0.0_wp                  !! contact angle, rad
+        real(wp) :: turn = 0.0_wp                   !! of its frame about y, on a roller, rad
         real(wp) :: rail(2) = 0.0_wp                !! y, z of it on the rail's profile, mm
         real(wp) :: wheel(3) = 0.0_wp               !! x, y, z of it in the frame of the wheel's
                                                     !! profile, mm

@@ -17,11 +17,11 @@ module faststrip_wheelset_wheel
     use faststrip_geometry_contact_yawed, only: find_frame_gap
     use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
                                           region_distance, most_regions
-    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_origin, on_rail_profile
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_origin, on_rail_profile, &
+                                                unrolled
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
-                                                 rail_state_t, rigid_creepage, approach_rate, &
-                                                 rail_velocity, &
-                                                 cross
+                                                 rail_state_t, on_roller_t, rigid_creepage, &
+                                                 approach_rate, rail_velocity, cross
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
                                         wheel_workspace_t
     use faststrip_wheelset_approach, only: hertz_power
@@ -122,7 +122,8 @@ contains
             associate (contact => wheel%contact(i))
                 case%penetration = contact%figures%normal%penetration
                 call find_motion(model, pair, state, axes, &
-                                 contact_frame_t(contact%place, contact%angle), case, contact)
+                                 contact_frame_t(contact%place, contact%angle, contact%turn), &
+                                 case, contact)
                 if (.not. is_error(contact%status)) then
                     call take_motion(model, contact, case)
                     call solve_contact_forces(workspace%contact(i), case, contact%figures, &
@@ -314,7 +315,7 @@ contains
         type(contact_frame_t) :: frame
         type(wheelset_axes_t) :: axes
         type(rail_state_t) :: rail
-        real(wp) :: height
+        real(wp) :: height, place(3)
 
         axes = lowered_axes(workspace, lowered)
         height = model%gap_height
@@ -336,7 +337,9 @@ contains
         if (is_error(contact%status)) return
         contact%place = frame%origin
         contact%angle = frame%angle
-        contact%rail = on_rail_profile(pair, rail, frame%origin(2:3))
+        contact%turn = frame%turn
+        place = unrolled(pair, rail, frame%origin)
+        contact%rail = on_rail_profile(pair, rail, place(2:3))
         call find_motion(model, pair, state, axes, frame, case, contact)
         if (is_error(contact%status)) return
         call place_on_wheel(pair, axes, frame%origin, contact)
@@ -365,15 +368,21 @@ contains
         type(contact_case_t), intent(in) :: case         !! its penetration is known
         type(wheel_contact_t), intent(inout) :: contact  !! gets them
 
+        type(on_roller_t) :: roller
         real(wp) :: point(3), moving(3)
 
         ! Velocities are those of the wheel's surface before it is deformed.
         point = along_normal(frame, case%penetration)
         associate (rail => state%rail(1), c => contact%creepage)
             moving = rail_velocity(rail, frame%origin(2:3) - rail_origin(pair, rail))
+            if (pair%roller_radius > 0.0_wp) then
+                roller = on_roller_t(norm2(frame%origin([1, 3]) &
+                                           - [0.0_wp, pair%roller_radius + rail%z]), &
+                                     frame%turn, state%speed/pair%roller_radius)
+            end if
             call rigid_creepage(state, axes, point, frame%angle, c, contact%speed, moving, &
-                                model%speed_floor)
-            contact%approach_rate = approach_rate(state, axes, point, frame%angle, moving)
+                                model%speed_floor, roller)
+            contact%approach_rate = approach_rate(state, axes, point, frame%angle, moving, roller)
             if (max(abs(c%cksi), abs(c%ceta), abs(c%cphi)) >= largest_ratio &
                 .and. case%methods%tangential == tangential_linear) &
                 call set_status(contact%status, st_out_of_range, 'linear forces have no limit ' // &
@@ -392,7 +401,7 @@ contains
         type(contact_frame_t) :: frame
         real(wp) :: damped
 
-        frame = contact_frame_t(contact%place, contact%angle)
+        frame = contact_frame_t(contact%place, contact%angle, contact%turn)
         associate (normal => contact%figures%normal, forces => contact%figures%tangential)
             damped = max(0.0_wp, 1.0_wp + model%damping*contact%approach_rate)
             contact%force = damped*in_track(frame, [forces%fx, forces%fy, normal%load])
@@ -479,6 +488,7 @@ contains
         do i = 1, wheel%n
             associate (contact => wheel%contact(i))
                 contact%place(1) = -contact%place(1)
+                contact%turn = -contact%turn
                 contact%wheel(1) = -contact%wheel(1)
                 contact%creepage%cksi = -contact%creepage%cksi
                 contact%creepage%cphi = -contact%creepage%cphi

@@ -6,6 +6,10 @@
 !> overlap, and over x' it grows by `(x' - x0)**2/(2 R)`,
 !> `1/R = cos(alpha)/(r cos(alpha_t - gamma))` with the rolling radius r, the slope alpha of the
 !> wheel's profile and alpha_t of its outline.
+!>
+!> On a roller the frame is turned about its axis as well, to the place of the reference point, and
+!> the gap is that over the unrolled roller. `1/R` grows by `cos(beta)/(r cos(beta - gamma))` with
+!> the slope beta and the radius r of the roller.
 module faststrip_geometry_contact_frame
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: most_steps
@@ -14,15 +18,16 @@ module faststrip_geometry_contact_frame
     use faststrip_geometry_profile, only: profile_at
     use faststrip_geometry_touchable, only: upright
     use faststrip_geometry_undeformed_gap, only: smallest_step
-    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height, outline_point, &
-                                                rail_origin, turned
-    use faststrip_geometry_wheel_outline, only: outline_t, see_points, cell_of
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height, &
+                                                rail_origin, turned, unrolled, rolled
+    use faststrip_geometry_wheel_outline, only: outline_t, lower_outline, see_points, see_point, &
+                                                cell_of
     use faststrip_geometry_wheelset_state, only: rail_state_t
     implicit none
     private
 
     public :: contact_frame_t, frame_gap_t
-    public :: place_frame, sample_gap, reserve_frame_gap, in_track, along_normal
+    public :: place_frame, frame_ahead, sample_gap, reserve_frame_gap, in_track, along_normal
 
     ! Tuned [points]: of a region from which on every second one is taken, and how many times as far
     ! apart they are beyond it. Origin: measured: with every point forces are as near to those of
@@ -38,6 +43,7 @@ module faststrip_geometry_contact_frame
     type :: contact_frame_t
         real(wp) :: origin(3) = 0.0_wp !! reference point on the rail, in the track, mm
         real(wp) :: angle = 0.0_wp     !! contact angle, about x, rad
+        real(wp) :: turn = 0.0_wp      !! then about y, on a roller, rad
     end type contact_frame_t
 
     ! A point on a rail's profile.
@@ -58,6 +64,7 @@ module faststrip_geometry_contact_frame
         real(wp), allocatable :: y(:)           !! y', increasing; of a turned gap across its strips
         real(wp), allocatable :: h(:)           !! height over the deepest point, mm
         real(wp), allocatable :: inv2r(:)       !! 1/(2 R), 1/mm
+        real(wp), allocatable :: of_rail(:)     !! what a roller has of it, 1/mm; of a rail 0
         real(wp), allocatable :: slope(:)       !! dh/dy'
         real(wp), allocatable :: inclination(:) !! mean slope of both less the contact angle, rad
         real(wp), allocatable :: x0(:)          !! where they are nearest along x, from the
@@ -80,7 +87,42 @@ contains
         frame%origin(2) = region%y
         call rail_height(pair, rail, region%y, frame%origin(3), slope, is_there)
         frame%angle = region%angle
+        if (pair%roller_radius > 0.0_wp) call turn_frame(pair, rail, region%x, frame)
     end subroutine place_frame
+
+    ! From over an unrolled roller to the roller.
+    pure subroutine turn_frame(pair, rail, x, frame)
+        type(wheel_on_rail_t), intent(in) :: pair
+        type(rail_state_t), intent(in) :: rail
+        real(wp), intent(in) :: x
+        type(contact_frame_t), intent(inout) :: frame
+
+        frame%origin = rolled(pair, rail, [x, frame%origin(2:3)])
+        frame%turn = x/pair%roller_radius
+    end subroutine turn_frame
+
+    !> The frame that is farther ahead around a roller.
+    pure type(contact_frame_t) function frame_ahead(pair, rail, frame, ahead) result(there)
+        type(wheel_on_rail_t), intent(in) :: pair  !! made, on a roller
+        type(rail_state_t), intent(in) :: rail     !! as it lies
+        type(contact_frame_t), intent(in) :: frame !! mm, rad
+        real(wp), intent(in) :: ahead              !! of the reference point, mm
+
+        there = frame
+        there%origin = unrolled(pair, rail, frame%origin)
+        call turn_frame(pair, rail, there%origin(1) &
+                        + ahead/scale_ahead(pair, rail, there%origin), there)
+    end function frame_ahead
+
+    ! A way on the roller at a point over the way along it at its radius; of a rail 1.
+    pure real(wp) function scale_ahead(pair, rail, point) result(scale)
+        type(wheel_on_rail_t), intent(in) :: pair
+        type(rail_state_t), intent(in) :: rail
+        real(wp), intent(in) :: point(3) ! unrolled, mm
+
+        scale = 1.0_wp
+        if (pair%roller_radius > 0.0_wp) scale = scale - (point(3) - rail%z)/pair%roller_radius
+    end function scale_ahead
 
     !> Allocate for the gaps of a pair.
     subroutine reserve_frame_gap(gap, pair)
@@ -91,12 +133,14 @@ contains
 
         n = size(pair%y)
         if (allocated(gap%y)) then
+            ! It may have been of a pair on rollers.
+            gap%of_rail = 0.0_wp
             if (size(gap%y) == n) return
-            deallocate (gap%wheel, gap%across, gap%down, gap%y, gap%h, gap%inv2r, gap%slope, &
-                        gap%inclination, gap%x0)
+            deallocate (gap%wheel, gap%across, gap%down, gap%y, gap%h, gap%inv2r, gap%of_rail, &
+                        gap%slope, gap%inclination, gap%x0)
         end if
         allocate (gap%wheel(n), gap%across(n), gap%down(n), gap%y(n), gap%h(n), gap%inv2r(n), &
-                  gap%slope(n), gap%inclination(n), gap%x0(n), source=0.0_wp)
+                  gap%of_rail(n), gap%slope(n), gap%inclination(n), gap%x0(n), source=0.0_wp)
     end subroutine reserve_frame_gap
 
     !> A vector of the contact frame in the track.
@@ -107,6 +151,10 @@ contains
 
         associate (c => cos(frame%angle), s => sin(frame%angle))
             turned = [vector(1), vector(2)*c - vector(3)*s, vector(2)*s + vector(3)*c]
+        end associate
+        if (.not. abs(frame%turn) > 0.0_wp) return
+        associate (c => cos(frame%turn), s => sin(frame%turn))
+            turned([1, 3]) = [turned(1)*c - turned(3)*s, turned(1)*s + turned(3)*c]
         end associate
     end function in_track
 
@@ -134,7 +182,7 @@ contains
         type(status_t), intent(out) :: status      !! `st_no_contact`: nothing to sample
 
         type(rail_place_t) :: middle
-        real(wp) :: c, s, c_rail, s_rail, offset(2)
+        real(wp) :: c, s, c_rail, s_rail, offset(2), origin(3), scale
         integer :: start, step, beyond, first
         logical :: found
 
@@ -144,8 +192,11 @@ contains
         associate (rail => outline%state%rail(1))
             c_rail = cos(frame%angle - rail%roll)
             s_rail = sin(frame%angle - rail%roll)
-            offset = turned(rail_origin(pair, rail) - frame%origin(2:3), -frame%angle)
+            origin = unrolled(pair, rail, frame%origin)
+            scale = scale_ahead(pair, rail, origin)
+            offset = turned(rail_origin(pair, rail) - origin(2:3), -frame%angle)
         end associate
+        call lower_outline(outline, lowered)
         call see_points(outline, pair, region%first, region%last)
         step = merge(1, 2, every_point .or. region%last - region%first < enough_points)
         beyond = merge(1, step_beyond*step, every_point)
@@ -169,6 +220,7 @@ contains
         call move_to_front(gap%y)
         call move_to_front(gap%h)
         call move_to_front(gap%inv2r)
+        if (outline%roller_radius > 0.0_wp) call move_to_front(gap%of_rail)
         call move_to_front(gap%slope)
         call move_to_front(gap%inclination)
         call move_to_front(gap%x0)
@@ -237,12 +289,11 @@ contains
                 point = [outline%x(k), outline%y(k), outline%z(k)]
                 tangent = outline%slope(k)
             else
-                call outline_point(pair, outline%axes, pair%y(k), pair%z(k), pair%slope(k), point, &
-                                   tangent, found)
+                call see_point(outline, pair, k, point, tangent, found)
             end if
             if (.not. found) return
-            across = point(2) - frame%origin(2)
-            n_wheel = point(3) + lowered - frame%origin(3)
+            across = point(2) - origin(2)
+            n_wheel = point(3) + lowered - origin(3)
             y_wheel = across*c + n_wheel*s
             n_wheel = n_wheel*c - across*s
             there = place
@@ -257,11 +308,16 @@ contains
             gap%h(i) = offset(2) + place%z*c_rail - place%y*s_rail - n_wheel
             gap%inv2r(i) = 0.5_wp*sqrt((1.0_wp + tangent**2)/(1.0_wp + pair%slope(k)**2)) &
                            /((pair%radius + pair%z(k) - pair%z_line)*along)
+            if (outline%roller_radius > 0.0_wp) then
+                gap%of_rail(i) = 0.5_wp/((pair%roller_radius - pair%z_rail - place%z) &
+                                         *(c + place%slope*s))
+                gap%inv2r(i) = gap%inv2r(i) + gap%of_rail(i)
+            end if
             gap%slope(i) = (place%slope*c_rail - s_rail)/(c_rail + place%slope*s_rail) &
                            - (tangent*c - s)/along
             gap%inclination(i) = 0.5_wp*(atan(tangent) + atan(place%slope) &
                                          + outline%state%rail(1)%roll) - frame%angle
-            gap%x0(i) = point(1) - frame%origin(1)
+            gap%x0(i) = (point(1) - origin(1))*scale
         end subroutine take
     end subroutine sample_gap
 

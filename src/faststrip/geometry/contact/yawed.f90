@@ -5,12 +5,14 @@
 !> `kappa_p cos(beta)**2 + kappa_m sin(beta)**2`, with `kappa_p = cos(alpha)/r` of the circle and
 !> `kappa_m` of the profile. At the root of a flange that is up to a quarter more. Where the
 !> profile's radius jumps it would jump, too; so 1/(2 R) is that of the parabola through the exact
-!> gap at the lowest place and as far ahead and behind as a patch goes there.
+!> gap at the lowest place and as far ahead and behind as a patch goes there. A roller keeps the
+!> curvature of its circle.
 module faststrip_geometry_contact_yawed
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, is_error
-    use faststrip_geometry_contact_frame, only: contact_frame_t, frame_gap_t, sample_gap, in_track
+    use faststrip_geometry_contact_frame, only: contact_frame_t, frame_gap_t, sample_gap, &
+                                               in_track, frame_ahead
     use faststrip_geometry_overlap, only: region_t
     use faststrip_geometry_profile, only: profile_at
     use faststrip_geometry_sheared_gap, only: turn_sheared_gap
@@ -94,11 +96,19 @@ contains
         type(frame_gap_t), intent(in) :: gap
         integer, intent(in) :: i
 
-        real(wp) :: reach
+        type(contact_frame_t) :: nearest
+        real(wp) :: reach, circle, ahead
 
+        nearest = frame
+        ahead = gap%x0(i)
+        if (outline%roller_radius > 0.0_wp) then
+            nearest = frame_ahead(pair, outline%state%rail(1), frame, ahead)
+            ahead = 0.0_wp
+        end if
+        circle = gap%inv2r(i) - gap%of_rail(i)
         reach = sqrt(patch_part*max(gap%overlap - gap%h(i), least_depth*gap%overlap)/gap%inv2r(i))
         secant = (rise_at(reach) + rise_at(-reach))/(2.0_wp*reach**2)
-        secant = max(secant, least_secant*gap%inv2r(i))
+        secant = max(secant, least_secant*circle) + gap%of_rail(i)
 
     contains
 
@@ -110,11 +120,11 @@ contains
             type(status_t) :: inside
             integer :: k
 
-            normal = in_track(frame, [0.0_wp, 0.0_wp, 1.0_wp])
-            rise_at = gap%inv2r(i)*reach**2
+            normal = in_track(nearest, [0.0_wp, 0.0_wp, 1.0_wp])
+            rise_at = circle*reach**2
             do k = 1, most_steps
-                arm = frame%origin - outline%axes%centre &
-                      + in_track(frame, [gap%x0(i) + way, gap%across(i), gap%down(i) - rise_at])
+                arm = nearest%origin - outline%axes%centre &
+                      + in_track(nearest, [ahead + way, gap%across(i), gap%down(i) - rise_at])
                 arm(3) = arm(3) - lowered
                 along = dot_product(arm, outline%axes%axle)
                 spoke = arm - along*outline%axes%axle

@@ -7,6 +7,10 @@
 !> exact for a surface of revolution. The least distance of wheel and rail at each y' of a turned
 !> frame, too, is that of the outline.
 !>
+!> A roller in the rail's place has its axis along y at z = R of the track. What can touch it are
+!> the points whose normal meets that axis, `a sin(theta) + b cos(theta) = c` again; they are looked
+!> at in the frame that unrolls the roller: x = R phi ahead, the same y, z as far within radius R.
+!>
 !> A rail may lie beside its place, turned about its origin: what is below a wheel's point is then
 !> sought along the rail.
 !>
@@ -24,8 +28,8 @@ module faststrip_geometry_wheel_on_rail
     private
 
     public :: wheel_on_rail_t
-    public :: make_wheel_on_rail, rail_height, rail_span, steepest_rail, outline_point
-    public :: rail_origin, turned, on_rail_profile
+    public :: make_wheel_on_rail, put_on_roller, rail_height, rail_span, steepest_rail
+    public :: outline_point, rail_origin, turned, on_rail_profile, unrolled, rolled
 
     ! Distance of the rail's samples, of which regions of overlap are found, mm; between them a
     ! cubic.
@@ -52,6 +56,8 @@ module faststrip_geometry_wheel_on_rail
         real(wp) :: z_line = 0.0_wp        !! z of the profile there, mm
         real(wp) :: y_rail = 0.0_wp        !! the rail's origin in the track, mm
         real(wp) :: z_rail = 0.0_wp        !! the same, mm
+        real(wp) :: roller_radius = 0.0_wp !! of a roller in the rail's place, at z = 0 of the
+                                           !! track, mm; 0: a rail
         real(wp), allocatable :: y(:)      !! points of the wheel's profile, mm
         real(wp), allocatable :: z(:)      !! the same, mm
         real(wp), allocatable :: slope(:)  !! dz/dy there
@@ -109,7 +115,17 @@ contains
         ! Twice the one and thrice the other: what moves between them shows.
         pair%mark = sum(pair%z) + 2.0_wp*(sum(pair%sample) + pair%y_rail) &
                     + 3.0_wp*(pair%y_line + pair%radius)
+        call put_on_roller(pair, track%roller_radius)
     end subroutine make_wheel_on_rail
+
+    !> Put a roller in the place of a rail, or a rail in that of a roller.
+    pure subroutine put_on_roller(pair, radius)
+        type(wheel_on_rail_t), intent(inout) :: pair !! made
+        real(wp), intent(in) :: radius !! at z = 0 of the track, above the rail's depth, mm; 0: rail
+
+        pair%mark = pair%mark + 4.0_wp*(radius - pair%roller_radius)
+        pair%roller_radius = radius
+    end subroutine put_on_roller
 
     ! Points of the wheel at equal distances along its profile.
     subroutine sample_wheel(pair)
@@ -215,6 +231,37 @@ contains
 
         place = turned(point - rail_origin(pair, rail), -rail%roll)
     end function on_rail_profile
+
+    !> A point of the track as it lies over the unrolled roller; over a rail as it is.
+    pure function unrolled(pair, rail, point) result(there)
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        type(rail_state_t), intent(in) :: rail    !! as it lies
+        real(wp), intent(in) :: point(3)          !! in the track, mm
+        real(wp) :: there(3)                      !! along the circumference, y, z, mm
+
+        real(wp) :: below
+
+        there = point
+        if (.not. pair%roller_radius > 0.0_wp) return
+        below = pair%roller_radius + rail%z - point(3)
+        there(1) = pair%roller_radius*atan2(point(1), below)
+        there(3) = pair%roller_radius + rail%z - hypot(point(1), below)
+    end function unrolled
+
+    !> The point of the track of one over the unrolled roller; over a rail as it is.
+    pure function rolled(pair, rail, point) result(there)
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        type(rail_state_t), intent(in) :: rail    !! as it lies
+        real(wp), intent(in) :: point(3)          !! along the circumference, y, z, mm
+        real(wp) :: there(3)                      !! in the track, mm
+
+        there = point
+        if (.not. pair%roller_radius > 0.0_wp) return
+        associate (turn => point(1)/pair%roller_radius, axis => pair%roller_radius + rail%z)
+            there(1) = (axis - point(3))*sin(turn)
+            there(3) = axis - (axis - point(3))*cos(turn)
+        end associate
+    end function rolled
 
     !> The first and the last y of a rail as it lies, mm, in the track.
     pure function rail_span(pair, rail) result(span)
@@ -329,33 +376,66 @@ contains
     end subroutine height_in_design
 
     !> The point of the outline that a point of the wheel's profile is turned to.
-    pure subroutine outline_point(pair, axes, y, z, dz, point, slope, is_there)
+    !>
+    !> On a roller, with A from its axis to the wheel's on its own and the wheel's radius rho, the
+    !> normal meets the axis where
+    !> `[A x n - rho (dz/dy) n x e_y]_y = (dz/dy) [A x e_y]_y`, n = sin(theta) e_x + cos(theta) e_z.
+    pure subroutine outline_point(pair, rail, axes, y, z, dz, point, slope, is_there)
         type(wheel_on_rail_t), intent(in) :: pair !! made
-        type(wheelset_axes_t), intent(in) :: axes !! of the state
+        type(rail_state_t), intent(in) :: rail    !! as a roller lies
+        type(wheelset_axes_t), intent(in) :: axes !! of the state; over a roller with its height
         real(wp), intent(in) :: y                 !! on the wheel's profile, mm
         real(wp), intent(in) :: z                 !! on the wheel's profile, mm
         real(wp), intent(in) :: dz                !! slope of the profile there
-        real(wp), intent(out) :: point(3)         !! in the track, mm
-        real(wp), intent(out) :: slope            !! dz/dy of the outline in the track
+        real(wp), intent(out) :: point(3)         !! in the track, mm; `unrolled` over a roller
+        real(wp), intent(out) :: slope            !! dz/dy of the outline there
         logical, intent(out) :: is_there          !! has the wheel an outline there?
 
-        real(wp) :: radius, reach, along, sine, cosine, spoke(3), normal(3)
+        real(wp) :: radius, a, b, c, reach, along, sine, cosine, spoke(3), normal(3), arm(3), down
 
         point = 0.0_wp
         slope = 0.0_wp
-        ! sin(theta) e_x + cos(theta) e_z = reach sin(theta + turn)
-        reach = sqrt(axes%ahead(1)**2 + axes%down(1)**2)
-        along = dz*axes%axle(1)/reach
+        radius = pair%radius + z - pair%z_line
+        if (pair%roller_radius > 0.0_wp) then
+            arm = axes%centre + (pair%y_line + y)*axes%axle
+            arm(3) = arm(3) - pair%roller_radius - rail%z
+            ! As of a rail: arm(3) is below 0.
+            a = radius*dz*across(axes%ahead, axes%axle) - across(arm, axes%ahead)
+            b = radius*dz*across(axes%down, axes%axle) - across(arm, axes%down)
+            c = -dz*across(arm, axes%axle)
+        else
+            a = axes%ahead(1)
+            b = axes%down(1)
+            c = dz*axes%axle(1)
+        end if
+        ! a sin(theta) + b cos(theta) = reach sin(theta + turn)
+        reach = sqrt(a**2 + b**2)
+        along = c/reach
         is_there = abs(along) < 1.0_wp
         if (.not. is_there) return
         cosine = sqrt(1.0_wp - along**2)
-        sine = (along*axes%ahead(1) - cosine*axes%down(1))/reach
-        cosine = (cosine*axes%ahead(1) + along*axes%down(1))/reach
+        sine = (along*a - cosine*b)/reach
+        cosine = (cosine*a + along*b)/reach
         spoke = cosine*axes%down + sine*axes%ahead
-        radius = pair%radius + z - pair%z_line
         point = axes%centre + (pair%y_line + y)*axes%axle + radius*spoke
         normal = spoke - dz*axes%axle
-        is_there = normal(3) > 0.0_wp .and. radius > 0.0_wp
-        if (is_there) slope = -normal(2)/normal(3)
+        down = normal(3)
+        if (pair%roller_radius > 0.0_wp) then
+            point = unrolled(pair, rail, point)
+            associate (turn => point(1)/pair%roller_radius)
+                down = normal(3)*cos(turn) - normal(1)*sin(turn)
+            end associate
+        end if
+        is_there = down > 0.0_wp .and. radius > 0.0_wp
+        if (is_there) slope = -normal(2)/down
+
+    contains
+
+        ! The part along y of a vector product.
+        pure real(wp) function across(u, v)
+            real(wp), intent(in) :: u(3), v(3)
+
+            across = u(3)*v(1) - u(1)*v(3)
+        end function across
     end subroutine outline_point
 end module faststrip_geometry_wheel_on_rail

@@ -13,16 +13,22 @@
 !> to the side and by
 !> `dz = eta (dphi + psi phi dpsi) + rho ((phi + S psi**2) dphi + S psi (S + 2 phi) dpsi)` down,
 !> where the terms of the yaw grow by `1/cos(theta)`, theta the angle by which the outline is ahead.
+!>
+!> Over a roller of radius R the outline depends on the height as well: it is that of a wheel that
+!> is lowered so far. A point that lies `phi_r <= psi (eta + 3/2 S rho)/R` off the top then moves by
+!> less than `(1 + |S|) phi_r (phi_r + psi + phi) dz` beside the lowering itself. Yaw moves a wheel
+!> off the top besides: by less than `(1 + |S|) (1 + eta/R) eta psi dpsi`. All of it counts twice.
 module faststrip_geometry_wheel_outline
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps, equal_within
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, outline_point, rail_height, &
                                                 rail_span, steepest_rail
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, wheelset_axes
     implicit none
     private
 
-    public :: outline_t, reserve_outline, move_outline, see_points, may_be_lower, lowest_height
-    public :: cell_of, cell_end
+    public :: outline_t, reserve_outline, move_outline, lower_outline, see_points, see_point
+    public :: may_be_lower, lowest_height, cell_of, cell_end
 
     ! Tuned [points]: in a cell. Origin: measured: with half as many a step of a wheelset costs 2 %
     ! more, with twice as many it costs the same.
@@ -36,6 +42,9 @@ module faststrip_geometry_wheel_outline
     real(wp), parameter :: farthest_ahead = 0.7_wp
     ! Given: 1/cos(theta) there, rounded up.
     real(wp), parameter :: most_ahead = 1.5_wp
+    ! Tuned [1]: bounds over a roller, over those above. Origin: safeguard: they are of first order;
+    ! walks at random find no point that is missed with 1.
+    real(wp), parameter :: on_roller = 2.0_wp
 
     !> The outline of a wheel over its rail; the points are those of the wheel's profile, and of
     !> those that were seen.
@@ -58,6 +67,8 @@ module faststrip_geometry_wheel_outline
         real(wp), allocatable :: lever(:)   !! longest of a cell from the wheelset's centre, mm
         real(wp), allocatable :: bend(:)    !! steepest slope of the wheel's profile in it
         real(wp) :: largest_radius = 0.0_wp !! of the wheel, mm
+        real(wp) :: roller_radius = 0.0_wp  !! of the roller below it, mm; 0: a rail
+        real(wp) :: lowered = 0.0_wp        !! over a roller: how far below the state, mm
     end type outline_t
 
 contains
@@ -94,6 +105,8 @@ contains
             outline%bend(cell) = maxval(abs(pair%slope(first:last)))
         end do
         outline%largest_radius = pair%radius + maxval(pair%z) - pair%z_line
+        outline%roller_radius = pair%roller_radius
+        outline%lowered = 0.0_wp
     end subroutine reserve_outline
 
     !> The number of a point's cell.
@@ -117,9 +130,11 @@ contains
         type(wheelset_state_t), intent(in) :: state   !! as of a right wheel; its z does not count
         real(wp), intent(in) :: radius                !! mean of the nominal radii, mm
 
-        real(wp) :: roll, yaw, d_roll, d_yaw, aside, down, s, yawed, tilt
+        real(wp) :: roll, yaw, d_roll, d_yaw, aside, down, more, s, yawed, tilt
         integer :: cell
 
+        ! Where a wheel touches a roller is then found alike whatever was before.
+        call lower_outline(outline, 0.0_wp)
         associate (before => outline%state)
             yaw = max(abs(state%yaw), abs(before%yaw))
             roll = max(abs(state%roll), abs(before%roll))
@@ -138,6 +153,14 @@ contains
                            + outline%lever(cell)*(d_roll + roll*yawed) &
                            + outline%largest_radius*(d_roll*(roll + s*tilt) &
                                                      + s*yawed*(s + 2.0_wp*roll))
+                    if (outline%roller_radius > 0.0_wp) then
+                        associate (lever => outline%lever(cell))
+                            more = (1.0_wp + s)*(abs(state%rail(1)%z - before%rail(1)%z) &
+                                   + (1.0_wp + lever/outline%roller_radius)*lever*yaw*d_yaw)
+                        end associate
+                        aside = on_roller*(aside + more)
+                        down = on_roller*(down + more)
+                    end if
                     outline%way(cell) = outline%way(cell) - aside
                     outline%low(cell) = outline%low(cell) - down - outline%steep(cell)*aside
                     if (outline%way(cell) < 0.0_wp .or. s*tan(yaw) > farthest_ahead) &
@@ -153,6 +176,33 @@ contains
         outline%state%z = 0.0_wp
         outline%axes = wheelset_axes(outline%state, radius)
     end subroutine move_outline
+
+    !> The outline over a roller of a wheel that is lowered; over a rail nothing depends on it.
+    pure subroutine lower_outline(outline, lowered)
+        type(outline_t), intent(inout) :: outline !! at a state
+        real(wp), intent(in) :: lowered           !! beyond the state, mm
+
+        real(wp) :: tilt, turn, more
+        integer :: cell
+
+        if (.not. (outline%roller_radius > 0.0_wp .and. abs(lowered - outline%lowered) > 0.0_wp)) &
+            return
+        tilt = tan(abs(outline%state%yaw))
+        do cell = 1, size(outline%low)
+            associate (s => outline%bend(cell))
+                turn = tilt*(outline%lever(cell) + most_ahead*s*outline%largest_radius) &
+                       /outline%roller_radius
+                more = on_roller*(1.0_wp + s)*turn*(turn + tilt + abs(outline%state%roll)) &
+                       *abs(lowered - outline%lowered)
+                outline%way(cell) = outline%way(cell) - more
+                outline%low(cell) = outline%low(cell) - more*(1.0_wp + outline%steep(cell))
+                if (outline%way(cell) < 0.0_wp .or. s*tilt > farthest_ahead) &
+                    outline%low(cell) = -huge(1.0_wp)
+            end associate
+        end do
+        outline%is_seen = .false.
+        outline%lowered = lowered
+    end subroutine lower_outline
 
     !> May a point of the outline be lower over the rail than this?
     pure logical function may_be_lower(outline, point, height)
@@ -177,6 +227,24 @@ contains
         end do
     end subroutine see_points
 
+    !> One point of the outline, as if it were not lowered.
+    pure subroutine see_point(outline, pair, i, point, slope, is_there)
+        type(outline_t), intent(in) :: outline    !! at a state
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        integer, intent(in) :: i                  !! number of the point
+        real(wp), intent(out) :: point(3)         !! as `outline_point` has it, mm
+        real(wp), intent(out) :: slope            !! dz/dy of the outline there
+        logical, intent(out) :: is_there          !! has the wheel an outline there?
+
+        type(wheelset_axes_t) :: axes
+
+        axes = outline%axes
+        axes%centre(3) = axes%centre(3) + outline%lowered
+        call outline_point(pair, outline%state%rail(1), axes, pair%y(i), pair%z(i), pair%slope(i), &
+                           point, slope, is_there)
+        point(3) = point(3) - outline%lowered
+    end subroutine see_point
+
     pure subroutine see_cell(outline, pair, cell)
         type(outline_t), intent(inout) :: outline
         type(wheel_on_rail_t), intent(in) :: pair
@@ -192,8 +260,7 @@ contains
         right = -huge(1.0_wp)
         span = rail_span(pair, outline%state%rail(1))
         do i = (cell - 1)*cell_points + 1, min(cell*cell_points, size(outline%x))
-            call outline_point(pair, outline%axes, pair%y(i), pair%z(i), pair%slope(i), point, &
-                               outline%slope(i), has_outline)
+            call see_point(outline, pair, i, point, outline%slope(i), has_outline)
             outline%x(i) = point(1)
             outline%y(i) = point(2)
             outline%z(i) = point(3)
@@ -224,11 +291,27 @@ contains
     end subroutine see_cell
 
     !> The lowest height of an outline over the rail; `huge` where they never stand one over the
-    !> other.
+    !> other. Over a roller the outline is that of a wheel that just touches it.
     pure subroutine lowest_height(outline, pair, lowest)
         type(outline_t), intent(inout) :: outline !! at a state; some of its cells are looked at
         type(wheel_on_rail_t), intent(in) :: pair !! made
         real(wp), intent(out) :: lowest           !! mm
+
+        integer :: i
+
+        do i = 1, most_steps
+            call find_lowest(outline, pair, lowest)
+            if (.not. outline%roller_radius > 0.0_wp .or. lowest >= huge(lowest) &
+                .or. abs(lowest - outline%lowered) <= equal_within*outline%largest_radius) exit
+            call lower_outline(outline, lowest)
+        end do
+    end subroutine lowest_height
+
+    ! The lowest height of an outline as it is.
+    pure subroutine find_lowest(outline, pair, lowest)
+        type(outline_t), intent(inout) :: outline
+        type(wheel_on_rail_t), intent(in) :: pair
+        real(wp), intent(out) :: lowest
 
         integer :: cell
 
@@ -240,5 +323,5 @@ contains
                 call see_cell(outline, pair, cell)
             lowest = min(lowest, outline%low(cell))
         end do
-    end subroutine lowest_height
+    end subroutine find_lowest
 end module faststrip_geometry_wheel_outline

@@ -19,7 +19,8 @@ module faststrip_interop_c_profiles
     implicit none
     private
 
-    public :: faststrip_pair_gap, faststrip_draw_profile, faststrip_wheelset_get_gap
+    public :: faststrip_pair_gap, faststrip_roller_gap, faststrip_draw_profile
+    public :: faststrip_wheelset_get_gap
 
 contains
 
@@ -29,6 +30,24 @@ contains
         result(code)
         type(c_ptr), value :: wheel, rail               !! each a `faststrip_profile`
         type(c_ptr), value :: setup                     !! nine numbers
+        integer(c_int), value :: capacity               !! length of the arrays of the gap
+        type(c_ptr), value :: n                         !! points of the gap, written
+        type(c_ptr), value :: y, h, inv2r, inclination  !! mm, mm, 1/mm, rad, written
+        type(c_ptr), value :: contact                   !! six numbers, written
+        type(c_ptr), value :: text         !! `length` characters, written; or null
+        integer(c_size_t), value :: length !! with the closing zero
+
+        code = faststrip_roller_gap(wheel, rail, setup, 0.0_c_double, capacity, n, y, h, inv2r, &
+                                    inclination, contact, text, length)
+    end function faststrip_pair_gap
+
+    !> The gap of a wheel on a roller in the rail's place, each given by name or by points.
+    integer(c_int) function faststrip_roller_gap(wheel, rail, setup, roller_radius, capacity, n, &
+                                                 y, h, inv2r, inclination, contact, text, length) &
+        bind(c) result(code)
+        type(c_ptr), value :: wheel, rail               !! each a `faststrip_profile`
+        type(c_ptr), value :: setup                     !! nine numbers
+        real(c_double), value :: roller_radius          !! at the crown, mm; 0: a rail
         integer(c_int), value :: capacity               !! length of the arrays of the gap
         type(c_ptr), value :: n                         !! points of the gap, written
         type(c_ptr), value :: y, h, inv2r, inclination  !! mm, mm, 1/mm, rad, written
@@ -47,14 +66,14 @@ contains
         if (.not. is_error(status)) then
             call c_f_pointer(n, number)
             call gap_of_profiles(of_wheel, of_rail, numbers_at(setup, n_setup), gap, &
-                                 numbers_at(contact, n_contact), status)
+                                 numbers_at(contact, n_contact), status, roller_radius)
             call copy_gap(gap, numbers_at(y, capacity), numbers_at(h, capacity), &
                           numbers_at(inv2r, capacity), numbers_at(inclination, capacity), number, &
                           status)
         end if
         code = status%code
         if (c_associated(text)) code = max(code, put_text(trim(status%message), text, length))
-    end function faststrip_pair_gap
+    end function faststrip_roller_gap
 
     !> Points of a profile that is given by name or by points.
     integer(c_int) function faststrip_draw_profile(profile, is_rail, inclination, n, y, z, text, &

@@ -32,7 +32,7 @@ module faststrip_interop_c_wheelset
     !> `faststrip_wheelset_setup` of the header.
     type, bind(c) :: c_setup_t
         integer(c_size_t) :: size
-        type(dimensions_t) :: dimensions !! `radius_right` to `inclination`
+        type(dimensions_t) :: dimensions !! `radius_right` to `roller_radius`
         real(c_double) :: damping        !! s/mm
         real(c_double) :: speed_floor    !! mm/s
     end type c_setup_t

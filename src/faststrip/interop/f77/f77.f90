@@ -87,7 +87,7 @@ module faststrip_interop_f77
     private
 
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
-    public :: fslimt, fserrs, fsferr, fslset, fscopy, fsfree, fsmsg, fslast, fsprof
+    public :: fslimt, fserrs, fsferr, fslset, fscopy, fsfree, fsmsg, fslast, fsprof, fsrprf
     public :: fswant, fstakn, fsstep, fsints
     public :: n_iwork, check_choices, set_number, number_of, find_either, copy_strips
 
@@ -183,13 +183,36 @@ contains
         real(c_double), intent(out) :: contact(n_contact)             !! as above
         integer(c_int), intent(out) :: info                           !! status
 
+        call fsrprf(0.0_c_double, n_wheel, y_wheel, z_wheel, n_rail, y_rail, z_rail, setup, &
+                    capacity, n, y, h, inv2r, inclination, contact, info)
+    end subroutine fsprof
+
+    !> CALL FSRPRF(RADIUS, NW, YW, ZW, NR, YR, ZR, SETUP, LGAP, NGAP, Y, H, AX, TURN, CONT, INFO)
+    !>
+    !> FSPROF on a roller of RADIUS (mm, at the crown) in the rail's place; 0: on a rail.
+    subroutine fsrprf(radius, n_wheel, y_wheel, z_wheel, n_rail, y_rail, z_rail, setup, capacity, &
+                      n, y, h, inv2r, inclination, contact, info) bind(c, name='fsrprf_')
+        real(c_double), intent(in) :: radius                          !! mm
+        integer(c_int), intent(in) :: n_wheel                         !! number of points
+        real(c_double), intent(in) :: y_wheel(n_wheel), z_wheel(n_wheel) !! mm
+        integer(c_int), intent(in) :: n_rail                          !! number of points
+        real(c_double), intent(in) :: y_rail(n_rail), z_rail(n_rail)  !! mm
+        real(c_double), intent(in) :: setup(n_setup)                  !! as above
+        integer(c_int), intent(in) :: capacity                        !! of the arrays of the gap
+        integer(c_int), intent(out) :: n                              !! points of the gap
+        real(c_double), intent(inout) :: y(capacity), h(capacity)     !! mm
+        real(c_double), intent(inout) :: inv2r(capacity)              !! 1/mm
+        real(c_double), intent(inout) :: inclination(capacity)        !! rad
+        real(c_double), intent(out) :: contact(n_contact)             !! as above
+        integer(c_int), intent(out) :: info                           !! status
+
         type(status_t) :: status
         type(gap_t) :: gap
 
-        call gap_of_points(y_wheel, z_wheel, y_rail, z_rail, setup, gap, contact, status)
+        call gap_of_points(y_wheel, z_wheel, y_rail, z_rail, setup, gap, contact, status, radius)
         call copy_gap(gap, y, h, inv2r, inclination, n, status)
         info = status%code
-    end subroutine fsprof
+    end subroutine fsrprf
 
     !> CALL FSDFLT(IOPT, PAR)
     !>

@@ -67,12 +67,12 @@ module faststrip_interop_f77_wheelset
                                                  pitch_rate_of
     use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
                                               default_dimensions, new_wheelset
-    use faststrip_wheelset_solve, only: set_damping
+    use faststrip_wheelset_solve, only: set_damping, set_roller, reserve_wheelset
     use faststrip_wheelset_types, only: wheelset_demand_t, side_right, side_left
     implicit none
     private
 
-    public :: fswdft, fswnew, fsrail, fsptch, fsdamp, fswslv, fswset, fswstr, fswelm, fswlkp
+    public :: fswdft, fswnew, fsrail, fsptch, fsdamp, fsroll, fswslv, fswset, fswstr, fswelm, fswlkp
     public :: fswcpy, fswfre
     public :: n_setup, read_dimensions, read_sources, find_column
 
@@ -142,7 +142,7 @@ contains
         real(c_double), intent(in) :: setup(n_setup) !! as above
 
         dimensions = dimensions_t(setup(1), setup(2), setup(3), setup(4), setup(5), setup(6), &
-                                  setup(7), setup(8))
+                                  setup(7), setup(8), 0.0_c_double)
     end function read_dimensions
 
     !> Where the profiles of wheels and rails come from.
@@ -221,6 +221,28 @@ contains
         call set_damping(handle%model, damping, speed_floor, handle%status)
         info = handle%status%code
     end subroutine fsdamp
+
+    !> CALL FSROLL(IWORK, RADIUS, INFO)
+    !>
+    !> Put the wheelset on rollers in the rails' place, both on one axis along y: RADIUS (mm) is
+    !> that at z = 0 of the track, the crown where the gauge is given; STATE(5) is the speed of the
+    !> surface there. 0: rails, as FSWNEW has them. Allocates.
+    subroutine fsroll(iwork, radius, info) bind(c, name='fsroll_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
+        real(c_double), intent(in) :: radius         !! mm
+        integer(c_int), intent(out) :: info          !! status
+
+        type(wheelset_handle_t), pointer :: handle
+
+        call find_wheelset(number_of(iwork), handle, info)
+        if (info /= st_ok) return
+        call set_roller(handle%model, radius, handle%status)
+        if (.not. is_error(handle%status)) then
+            handle%has = .false.
+            call reserve_wheelset(handle%workspace, handle%model, handle%status)
+        end if
+        info = handle%status%code
+    end subroutine fsroll
 
     !> CALL FSWSLV(IWORK, STATE, IDMND, DMND, M, N, CONT, WRES, INFO)
     !>
