@@ -37,6 +37,7 @@ PARTS = {"case": "What is solved", "result": "How it ended", "contact": "Figures
 NEEDS = {"forces": "creep forces", "stick": "a method that knows it", "strips": "strips",
          "errors": "estimates", "residuals": "estimates", "force errors": "estimates of forces",
          "target": "`--normal auto`", "smoothing": "`--smooth`", "times": "",
+         "temperatures": "`&thermal`",
          "yield in shear": "`--yield-shear-MPa`",
          "wear law": "`--wear`, and a method with forces of strips"}
 # As people write units.

@@ -26,6 +26,8 @@ contains
         call make_model(path, case, model)
         if (case%has_state) call fail(exit_bad_input, 'a lookup table is of all states: &state ' &
                                       // 'must not be given (' // path // ')')
+        if (case%asked%temperatures) call fail(exit_bad_input, 'a lookup table has no ' &
+            // 'temperatures: &thermal must not be given (' // path // ')')
         if (falls(case%friction) .or. case%friction%slope_factor < 1.0_wp .or. &
             abs(case%friction%flange_share - 1.0_wp) > 0.0_wp) &
             call fail(exit_bad_input, 'a lookup table is for Coulomb friction of one number (' &

@@ -5,6 +5,7 @@ module faststrip_contact_case
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t
+    use faststrip_base_thermal, only: thermal_t
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_limitations, only: default_resolution
     use faststrip_normal_strips, only: usual_strip_tolerance
@@ -15,7 +16,7 @@ module faststrip_contact_case
     implicit none
     private
 
-    public :: contact_case_t, asked_t
+    public :: contact_case_t, asked_t, wants_elements
 
     !> What a solution shall hold besides its figures.
     type :: asked_t
@@ -24,6 +25,7 @@ module faststrip_contact_case
         logical :: strip_forces = .false. !! sums over each strip, in the workspace's
                                           !! `strip_forces`; only the march along strips has them
         logical :: times = .false.        !! time of either problem, in the result's `times`
+        logical :: temperatures = .false. !! of both surfaces, in the result's `flash` and the field
     end type asked_t
 
     !> One contact to be solved. What is prescribed, `by_load`, `load` or `penetration`, is its
@@ -35,6 +37,7 @@ module faststrip_contact_case
         real(wp) :: mu = 0.3_wp            !! coefficient of friction, the static one
         type(friction_t) :: friction       !! how it falls with slip, factor of the initial slope
         type(creepage_t) :: creepage       !! about y = 0
+        type(thermal_t) :: thermal         !! how the bodies take up heat, how warm they are
         type(contact_methods_t) :: methods !! methods and resolutions
         type(wanted_t) :: wanted           !! of normal method auto: target, tolerance, budget
         type(asked_t) :: asked             !! what the solution shall hold besides its figures
@@ -57,4 +60,13 @@ module faststrip_contact_case
         real(wp) :: force_limit = default_resolution
             !! the same of the forces, over mu N, and of the moment, over mu N c
     end type contact_case_t
+
+contains
+
+    !> Does a solution need elements?
+    pure logical function wants_elements(asked)
+        type(asked_t), intent(in) :: asked !! of a case
+
+        wants_elements = asked%field .or. asked%temperatures
+    end function wants_elements
 end module faststrip_contact_case

@@ -33,6 +33,9 @@ contains
         slower%wear_law%n = case%wear_law%n
         slower%friction = case%friction
         slower%friction%speed = case%friction%speed/share
+        ! As much heat of less slip at more speed: the effusivity goes with the root of share.
+        slower%thermal = case%thermal
+        slower%thermal%conductivity = case%thermal%conductivity*share
         slower%creepage = creepage
         call method%solve(workspace, slower, result, status)
         if (.not. is_error(status)) call scale_slip(workspace, result, 1.0_wp/share)

@@ -31,7 +31,9 @@ module faststrip_contact_figures
                                   figure_normal_us = 25, figure_tangential_us = 26, &
                                   figure_t_gamma = 27, figure_t_gamma_spin = 28, &
                                   figure_t_gamma_per_area = 29, figure_fatigue_index = 30, &
-                                  figure_wear_mass = 31, figure_wear_volume = 32
+                                  figure_wear_mass = 31, figure_wear_volume = 32, &
+                                  figure_flash_temperature = 33, figure_temperature_max = 34, &
+                                  figure_temperature_x = 35, figure_temperature_y = 36
 
     !> All of them.
     type(figure_t), parameter :: figures(*) = [ &
@@ -88,7 +90,15 @@ module faststrip_contact_figures
         figure_t('mass', 'wear_ug_per_m', needs='wear law', &
                  meaning='wear, mass per distance rolled'), &
         figure_t('volume', 'wear_mm3_per_m', needs='wear law', &
-                 meaning='wear, volume per distance rolled')]
+                 meaning='wear, volume per distance rolled'), &
+        figure_t('flash_temperature', 'flash_temperature_K', needs='temperatures', &
+                 meaning='largest rise of temperature by the heat of friction'), &
+        figure_t('temperature_max', 'temperature_max_C', needs='temperatures', &
+                 meaning='largest temperature of the surfaces in contact'), &
+        figure_t('temperature_x', 'temperature_x_mm', needs='temperatures', &
+                 meaning='x of the largest temperature'), &
+        figure_t('temperature_y', 'temperature_y_mm', needs='temperatures', &
+                 meaning='y of the largest temperature')]
 
     !> How many there are.
     integer, parameter :: n_figures = size(figures)

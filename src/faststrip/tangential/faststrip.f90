@@ -61,6 +61,9 @@
 !>   is iterated and there is one solution, reached from adhesion. What was tuned or fitted for
 !>   constant friction (S2, S5, S6, S9, S10) takes its mean where the patch slides for the
 !>   coefficient: a first march finds it. What patches do to each other (S11) takes the static one.
+!>   Where it falls with temperature, that of an element follows from the heat of the elements ahead
+!>   of it and its own (`faststrip_tangential_heat_sources`), of which it is the root in closed form
+!>   (`hot_share`).
 !>
 !> `patch_law` has what the ellipse says of the strips, `strip_march` the march.
 !>
@@ -78,6 +81,7 @@ module faststrip_tangential_faststrip
     use faststrip_base_material, only: material_t, check_material, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls
+    use faststrip_base_thermal, only: heating_t
     use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                                      check_strips
@@ -125,7 +129,7 @@ contains
     !> The sums of `per_strip` add up to the result.
     pure subroutine faststrip_tangential_solve(strips, material, mu, creepage, points_per_strip, &
                                                result, status, field, per_strip, with_fit, &
-                                               friction)
+                                               friction, heat)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -142,7 +146,9 @@ contains
             !! filled when present; needs capacity for n strips
         logical, intent(in), optional :: with_fit !! corrected (S10)? default true
         type(friction_t), intent(in), optional :: friction
-            !! how mu falls with slip (S12); its other parts do not count here
+            !! how mu falls with slip and temperature (S12); its other parts do not count here
+        type(heating_t), intent(in), optional :: heat
+            !! of the bodies, needed where friction falls with temperature
 
         type(patch_rolling_t) :: rolling
         type(march_sums_t) :: sums
@@ -175,6 +181,7 @@ contains
         rolling = patch_rolling_t(mu=mu, creepage=creepage, points=points_per_strip, &
                                   mu_in_slip=mu, given=creepage)
         if (present(friction)) rolling%friction = friction
+        if (present(heat)) rolling%heat = heat
         if (present(with_fit)) rolling%is_corrected = with_fit
         if (rolling%is_corrected) then
             call find_coupling(strips, material, coupling)

@@ -49,14 +49,17 @@ contains
             field%sx(:n) = from%sx(:n)
             field%sy(:n) = from%sy(:n)
             field%state(:n) = from%state(:n)
+            field%temperature(:n) = from%temperature(:n)
+            field%has_temperature = from%has_temperature
             call mirror_elements(workspace%is_reversed, side == side_left, field%x(:n), &
                                  field%y(:n), field%area(:n), field%pn(:n), field%px(:n), &
-                                 field%py(:n), field%sx(:n), field%sy(:n), field%state(:n))
+                                 field%py(:n), field%sx(:n), field%sy(:n), field%state(:n), &
+                                 field%temperature(:n))
         end associate
     end subroutine find_wheel_field
 
     !> Elements in a mirror. One in y puts the last row first; each begins where it did.
-    subroutine mirror_elements(in_x, in_y, x, y, area, pn, px, py, sx, sy, state)
+    subroutine mirror_elements(in_x, in_y, x, y, area, pn, px, py, sx, sy, state, temperature)
         logical, intent(in) :: in_x, in_y       !! what becomes its negative
         real(wp), intent(inout) :: x(:), y(:)   !! middle of the element, mm
         real(wp), intent(inout) :: area(:)      !! mm^2
@@ -64,6 +67,7 @@ contains
         real(wp), intent(inout) :: px(:), py(:) !! traction on the rail, MPa
         real(wp), intent(inout) :: sx(:), sy(:) !! slip over rolling speed
         integer, intent(inout) :: state(:)      !! adhesion or slip
+        real(wp), intent(inout), optional :: temperature(:) !! C
 
         integer :: first, last
 
@@ -102,6 +106,7 @@ contains
             call reverse(sx(i:j))
             call reverse(sy(i:j))
             call reverse(state(i:j))
+            if (present(temperature)) call reverse(temperature(i:j))
         end subroutine turn_round
     end subroutine mirror_elements
 end module faststrip_wheelset_field

@@ -2,7 +2,7 @@
 !> and what all of them leave out.
 module faststrip_contact_method_march_errors
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_friction, only: falls, softened
+    use faststrip_base_friction, only: friction_t, falls, falls_when_hot, softened
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t
     use faststrip_base_status, only: status_t, is_error, add_limitation, st_under_resolved
@@ -84,14 +84,14 @@ contains
         end associate
     end subroutine estimate_march
 
-    !> Name what methods of the core know nothing of: friction that falls with slip has no estimate,
+    !> Name what methods of the core know nothing of: friction that falls has no estimate,
     !> pressures of dissimilar materials do not count.
     pure subroutine name_left_out(case, status)
         type(contact_case_t), intent(in) :: case !! what was solved
         type(status_t), intent(inout) :: status  !! limitations so far; `st_under_resolved`
 
         if (falls(case%friction)) then
-            call name_falling_friction(status)
+            call name_falling_friction(case%friction, status)
         else if (left_out(case) > case%force_limit) then
             call add_limitation(status, st_under_resolved, 'between dissimilar materials ' &
                                 // 'pressures cause slip, which only tang takes into account')
@@ -108,12 +108,14 @@ contains
                     2.0_wp*case%mu)/max(case%mu, tiny(error))
     end function left_out
 
-    !> Name that no error of forces is estimated where friction falls with slip: what the estimates
-    !> were calibrated on has constant friction.
-    pure subroutine name_falling_friction(status)
+    !> Name that no error of forces is estimated where friction falls: what the estimates were
+    !> calibrated on has constant friction.
+    pure subroutine name_falling_friction(friction, status)
+        type(friction_t), intent(in) :: friction !! falls
         type(status_t), intent(inout) :: status !! limitations so far; `st_under_resolved`
 
         call add_limitation(status, st_under_resolved, 'no error of the forces can be ' // &
-                            'estimated: friction falls with slip')
+                            'estimated: friction falls with ' // &
+                            trim(merge('temperature', 'slip       ', falls_when_hot(friction))))
     end subroutine name_falling_friction
 end module faststrip_contact_method_march_errors

@@ -11,6 +11,7 @@ module faststrip_interop_c_structs
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t
     use faststrip_base_material, only: material_t
+    use faststrip_base_thermal, only: thermal_t, of_wheel, of_rail
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_wanted, only: wanted_t, unknown_error
@@ -19,7 +20,8 @@ module faststrip_interop_c_structs
     private
 
     public :: c_case_t, c_result_t
-    public :: default_case, find_case, check_size, methods_of, fill_case, fill_result
+    public :: default_case, find_case, check_size, methods_of, with_elements, fill_case
+    public :: fill_result
 
     !> `faststrip_case` of the header.
     type, bind(c) :: c_case_t
@@ -35,6 +37,11 @@ module faststrip_interop_c_structs
         integer(c_int) :: friction
         real(c_double) :: kinetic_share, half_slip_speed, speed, slope_factor, flange_share, &
                           tread_angle, flange_angle, contact_angle
+        real(c_double) :: hot_share, cold_temperature, hot_temperature
+        integer(c_int) :: with_temperatures
+        real(c_double) :: conductivity_wheel, conductivity_rail, heat_capacity_wheel, &
+                          heat_capacity_rail, density_wheel, density_rail, temperature_wheel, &
+                          temperature_rail
     end type c_case_t
 
     !> `faststrip_result` of the header; zeros unless there is one.
@@ -97,8 +104,22 @@ contains
             fields%flange_share = friction%flange_share
             fields%tread_angle = friction%tread_angle
             fields%flange_angle = friction%flange_angle
+            fields%hot_share = friction%hot_share
+            fields%cold_temperature = friction%cold_temperature
+            fields%hot_temperature = friction%hot_temperature
         end associate
         fields%contact_angle = 0
+        fields%with_temperatures = 0
+        associate (thermal => case%thermal)
+            fields%conductivity_wheel = thermal%conductivity(of_wheel)
+            fields%conductivity_rail = thermal%conductivity(of_rail)
+            fields%heat_capacity_wheel = thermal%heat_capacity(of_wheel)
+            fields%heat_capacity_rail = thermal%heat_capacity(of_rail)
+            fields%density_wheel = thermal%density(of_wheel)
+            fields%density_rail = thermal%density(of_rail)
+            fields%temperature_wheel = thermal%temperature(of_wheel)
+            fields%temperature_rail = thermal%temperature(of_rail)
+        end associate
     end function default_case
 
     !> A caller's case, if it is one.
@@ -152,6 +173,13 @@ contains
                                     fields%points_per_strip, fields%fastsim_nx, fields%fastsim_ny)
     end function methods_of
 
+    !> Does a case need elements?
+    pure logical function with_elements(fields)
+        type(c_case_t), intent(in) :: fields !! not yet checked
+
+        with_elements = fields%with_elements /= 0 .or. fields%with_temperatures /= 0
+    end function with_elements
+
     !> All of a case but its gap.
     pure subroutine fill_case(fields, case, contact_angle)
         type(c_case_t), intent(in) :: fields           !! as the caller has it
@@ -174,7 +202,13 @@ contains
                                budget_us=fields%budget_us)
         case%friction = friction_t(fields%friction, fields%kinetic_share, fields%half_slip_speed, &
                                    fields%speed, fields%slope_factor, fields%flange_share, &
-                                   fields%tread_angle, fields%flange_angle)
+                                   fields%tread_angle, fields%flange_angle, fields%hot_share, &
+                                   fields%cold_temperature, fields%hot_temperature)
+        case%asked%temperatures = fields%with_temperatures /= 0
+        case%thermal = thermal_t([fields%conductivity_wheel, fields%conductivity_rail], &
+                                 [fields%heat_capacity_wheel, fields%heat_capacity_rail], &
+                                 [fields%density_wheel, fields%density_rail], &
+                                 [fields%temperature_wheel, fields%temperature_rail])
         contact_angle = fields%contact_angle
     end subroutine fill_case
 
