@@ -47,6 +47,10 @@ QUANTITIES: Dict[str, Tuple[str, str, str]] = {
     "fatigue_index": ("1", "surface-fatigue index", "yield in shear"),
     "mass": ("ug m-1", "wear, mass per distance rolled", "wear law"),
     "volume": ("mm3 m-1", "wear, volume per distance rolled", "wear law"),
+    "flash_temperature": ("K", "largest rise of temperature by the heat of friction", "temperatures"),
+    "temperature_max": ("degC", "largest temperature of the surfaces in contact", "temperatures"),
+    "temperature_x": ("mm", "x of the largest temperature", "temperatures"),
+    "temperature_y": ("mm", "y of the largest temperature", "temperatures"),
     "patch": ("1", "number of the patch", ""),
     "x": ("mm", "x, along the rolling direction", ""),
     "y": ("mm", "y, across the rolling direction", ""),
@@ -106,7 +110,7 @@ QUANTITIES: Dict[str, Tuple[str, str, str]] = {
 # As people write units.
 PLAIN: Dict[str, str] = {"mm2": "mm^2", "mm-1": "1/mm", "mm s-1": "mm/s", "rad mm-1": "rad/mm",
                          "N mm-2": "N/mm^2", "ug m-1": "ug per metre", "mm3 m-1": "mm^3 per metre",
-                         "1": ""}
+                         "degC": "C", "1": ""}
 
 
 def members(kind: Any, *names: str) -> List[Tuple[str, Any]]:
@@ -129,7 +133,12 @@ class Case(ctypes.Structure):
         *members(c_double, "tolerance", "budget_us"),
         *members(c_int, "friction"),
         *members(c_double, "kinetic_share", "half_slip_speed", "speed", "slope_factor",
-                 "flange_share", "tread_angle", "flange_angle", "contact_angle"),
+                 "flange_share", "tread_angle", "flange_angle", "contact_angle", "hot_share",
+                 "cold_temperature", "hot_temperature"),
+        *members(c_int, "with_temperatures"),
+        *members(c_double, "conductivity_wheel", "conductivity_rail", "heat_capacity_wheel",
+                 "heat_capacity_rail", "density_wheel", "density_rail", "temperature_wheel",
+                 "temperature_rail"),
     ]
 
 

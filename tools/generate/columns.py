@@ -42,7 +42,8 @@ NEEDS = {"forces": "creep forces", "stick": "a method that knows it", "strips": 
          "wear law": "`--wear`, and a method with forces of strips"}
 # As people write units.
 PLAIN = {"mm2": "mm^2", "mm-1": "1/mm", "mm s-1": "mm/s", "rad mm-1": "rad/mm",
-         "N mm-2": "N/mm^2", "ug m-1": "ug per metre", "mm3 m-1": "mm^3 per metre", "1": ""}
+         "N mm-2": "N/mm^2", "ug m-1": "ug per metre", "mm3 m-1": "mm^3 per metre", "degC": "C",
+         "1": ""}
 
 
 def rows_of(program):

@@ -149,7 +149,10 @@ contains
                 // ' is solved for it; its N_N is then empty, and filled in.' // new_line('a') &
                 // 'Columns friction_kind, mu_kinetic, half_slip_speed_mm_s,' &
                 // ' initial_slope_factor,' // new_line('a') // 'speed_mm_s: as in &friction and' &
-                // ' &motion of a case file, mu being the static value.' // new_line('a') &
+                // ' &motion of a case file, mu being the static value;' // new_line('a') &
+                // 'mu_hot, cold_temperature_C, hot_temperature_C and those of &thermal likewise:' &
+                // new_line('a') // 'one of the last in a row asks for its temperatures.' &
+                // new_line('a') &
                 // 'Other columns are carried through. A row that fails gets its status word and' &
                 // new_line('a') // 'empty figures; the others go on, and the exit code is 1.' &
                 // new_line('a')

@@ -8,7 +8,7 @@ module faststrip_tangential_strip_march
     use faststrip_base_friction, only: friction_t, falls, falls_when_hot, falling_share, hot_share
     use faststrip_base_thermal, only: heating_t
     use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
-    use faststrip_tangential_heat_sources, only: weight, rise_ahead
+    use faststrip_tangential_heat_sources, only: rise_by_steps, own_weight
     use faststrip_tangential_patch_law, only: patch_law_t
     use faststrip_tangential_saturation, only: saturate
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
@@ -76,7 +76,7 @@ module faststrip_tangential_strip_march
         real(wp), dimension(most_lanes) :: static_bound   !! mu p0, MPa
         real(wp), dimension(most_lanes) :: left           !! of the static coefficient
         real(wp), dimension(most_lanes) :: bound          !! over mu p0, sum over the elements
-        real(wp), dimension(most_points, falling_lanes) :: heat !! of the elements, N/mm^2
+        real(wp), dimension(most_points, falling_lanes) :: heat !! of the steps, N/mm^2
     end type fall_t
 
 contains
@@ -211,7 +211,7 @@ contains
                 share = falling_share(rolling%friction, slip)
                 if (is_hot) share = share*hot_share_of(rolling, fall%heat(:i - 1, k), &
                     2.0_wp*block%half_length(k)/rolling%points, &
-                    share/fall%left(k)*heat_of(block, k, ahead_x(k), ahead_y(k), rolling%points))
+                    share/fall%left(k)*heat_of(block, k, ahead_x(k), ahead_y(k)))
                 part = share/fall%left(k)
                 fall%left(k) = part*fall%left(k)
                 block%peak_bound(k) = fall%left(k)*fall%static_bound(k)
@@ -223,8 +223,7 @@ contains
                 block%px(k) = part*block%px(k)
                 block%py(k) = part*block%py(k)
                 block%f(k) = block%f(k)/part
-                if (is_hot) fall%heat(i, k) = heat_of(block, k, ahead_x(k), ahead_y(k), &
-                                                      rolling%points)
+                if (is_hot) fall%heat(i, k) = heat_of(block, k, ahead_x(k), ahead_y(k))
                 if (k <= block%n) then
                     static = block%cell(k)*fall%static_bound(k)*bound
                     sums%slid = sums%slid + fall%left(k)*static
@@ -238,27 +237,26 @@ contains
     !> The share of the coefficient that is left of an element by its temperature.
     pure real(wp) function hot_share_of(rolling, ahead, length, heat) result(share)
         type(rolling_t), intent(in) :: rolling
-        real(wp), intent(in) :: ahead(:) ! heat of the elements ahead, N/mm^2
+        real(wp), intent(in) :: ahead(:) ! heat of the steps before, N/mm^2
         real(wp), intent(in) :: length   ! of an element, mm
         real(wp), intent(in) :: heat     ! of this one, if it were cold
 
         real(wp) :: gain
 
         gain = rolling%heat%gain*sqrt(length)
-        share = hot_share(rolling%friction, rolling%heat%shared + gain*rise_ahead(ahead), &
-                          gain*weight(0)*heat)
+        share = hot_share(rolling%friction, rolling%heat%shared + gain*rise_by_steps(ahead), &
+                          gain*own_weight(size(ahead) + 1)*heat)
     end function hot_share_of
 
-    !> Heat of an element that slides over its area, as `note_elements` has it, N/mm^2.
-    pure real(wp) function heat_of(block, k, ahead_x, ahead_y, points) result(heat)
+    !> Heat of the step to an element that slides, over its area, as `note_elements` has it, N/mm^2.
+    pure real(wp) function heat_of(block, k, ahead_x, ahead_y) result(heat)
         type(block_t), intent(in) :: block
         integer, intent(in) :: k                 ! lane
         real(wp), intent(in) :: ahead_x, ahead_y ! traction of the element ahead, MPa
-        integer, intent(in) :: points            ! along the strip
 
         heat = 0.5_wp*block%f(k)*(block%px(k)*(block%px(k) + ahead_x) &
                                   + block%py(k)*(block%py(k) + ahead_y))
-        heat = max(heat, 0.0_wp)*points/(2.0_wp*block%half_length(k))
+        heat = max(heat, 0.0_wp)/block%step(k)
     end function heat_of
 
     !> Put element `i` of every strip of a block into the field.

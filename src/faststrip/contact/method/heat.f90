@@ -13,7 +13,7 @@ module faststrip_contact_method_heat
 
     public :: find_heat, friction_heat
 
-    ! Given: half of V a/kappa from which heat flows in depth only (Ertz and Knothe 2002): conduction
+    ! Given: V a/(2 kappa) from which heat flows in depth only (Ertz and Knothe 2002): conduction
     ! along the surface takes off 0.13 % there, 6 % at 1.
     real(wp), parameter :: least_peclet = 10.0_wp
 

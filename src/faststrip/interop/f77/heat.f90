@@ -1,5 +1,5 @@
-!> Temperatures in the F77 interface, of workspaces of FSINIT and of FSWNEW alike; they need elements,
-!> IOPT(9) = 1.
+!> Temperatures in the F77 interface, of workspaces of FSINIT and of FSWNEW alike; they need
+!> elements, IOPT(9) = 1.
 !>
 !> ```
 !> HEAT(1), HEAT(2) conductivity of wheel and rail, W/(m K)

@@ -13,14 +13,17 @@
 !>   second `8/sqrt(1 + t) [B - (1 - m) D]/(3 m)`.
 !>
 !> Heat that is uniform over each of the elements of a row, all of one length, has at the middle of
-!> element i `sqrt(length) sum_j weight(i - j) q_j`: one table of numbers serves all rows.
+!> element i `sqrt(length) sum_j weight(i - j) q_j`: one table of numbers serves all rows. A march
+!> knows the heat of its steps instead, from middle to middle, the first half as long.
 module faststrip_tangential_heat_sources
     use faststrip_base_kinds, only: wp
     use faststrip_numerics_elliptic, only: complete_elliptic, complete_elliptic_d
+    use faststrip_tangential_types, only: most_points
     implicit none
     private
 
     public :: uniform_source, semi_elliptic_source, weight, most_along, rise_ahead
+    public :: rise_by_steps, own_weight
 
     !> The most elements along a row.
     !> Tuned [elements]. Origin: capacity: a row of them on the stack.
@@ -31,6 +34,10 @@ module faststrip_tangential_heat_sources
     !> root of its length.
     real(wp), parameter :: weight(0:most_along - 1) = &
         [sqrt(2.0_wp), (2.0_wp/(sqrt(k + 0.5_wp) + sqrt(k - 0.5_wp)), k=1, most_along - 1)]
+
+    !> The same at the end of a step of a march.
+    real(wp), parameter :: step_weight(0:most_points - 1) = &
+        [(2.0_wp/(sqrt(k + 1.0_wp) + sqrt(real(k, wp))), k=0, most_points - 1)]
 
 contains
 
@@ -62,6 +69,7 @@ contains
         call complete_elliptic(m1, k, e)
         d = complete_elliptic_d(m1)
         if (t > 1.0_wp) then
+            ! Given: as above.
             rise = 8.0_wp/(3.0_wp*m*sqrt(1.0_wp + t))*(k - d - m1*d)
         else
             rise = 4.0_wp*sqrt(2.0_wp)/3.0_wp*m*(k - d + 2.0_wp*m1*d)
@@ -75,4 +83,27 @@ contains
 
         rise_ahead = dot_product(weight(size(heat):1:-1), heat)
     end function rise_ahead
+
+    !> What the heat of the steps before does at the end of the next step of a march, over the root
+    !> of their length.
+    pure real(wp) function rise_by_steps(heat) result(rise)
+        real(wp), intent(in) :: heat(:) !! of these steps, uniform over each, the first one first
+
+        integer :: i, n
+
+        n = size(heat)
+        rise = 0.0_wp
+        if (n == 0) return
+        rise = heat(1)/(sqrt(n + 0.5_wp) + sqrt(real(n, wp)))
+        do i = 2, n
+            rise = rise + heat(i)*step_weight(n + 1 - i)
+        end do
+    end function rise_by_steps
+
+    !> The same of the step itself.
+    elemental real(wp) function own_weight(step)
+        integer, intent(in) :: step !! from 1 on
+
+        own_weight = merge(weight(0), step_weight(0), step == 1)
+    end function own_weight
 end module faststrip_tangential_heat_sources
