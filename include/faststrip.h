@@ -155,8 +155,8 @@ typedef struct faststrip_case {
     double tread_angle;   /* contact angle up to which the tread's mu counts, rad, >= 0 */
     double flange_angle;  /* from which the flange's counts, rad; between both linearly */
     double contact_angle; /* of this contact, of either sign, rad; of wheelsets it is found */
-    double hot_share;     /* hot over cold friction, 1e-6 to 1, with the temperature of the surfaces;
-                           * 1: it does not fall. Of the same methods as friction. speed > 0 */
+    double hot_share;     /* hot over cold friction, 1e-6 to 1, by the temperature of the surfaces
+                           * there; 1: it does not fall. Of the same methods; speed > 0 */
     double cold_temperature; /* up to which the cold value, that is mu, counts, C */
     double hot_temperature; /* from which the hot one counts, C; between both linearly */
     int with_temperatures; /* 1: those of the surfaces, of all methods with elements; speed > 0 */
@@ -350,13 +350,13 @@ int faststrip_get_strip_wear(faststrip_workspace *workspace, const faststrip_wea
                              int capacity, int *n, double *fx, double *fy, double *friction_power,
                              double *t_gamma_per_area, double *wear, double *pass_depth);
 
-/* Temperatures of the last contact: figures becomes the largest rise by the heat of friction, K, the
- * largest temperature of the surfaces in contact, C, and its place, x and y, mm. Refused (100) but
- * of a contact with with_temperatures. */
+/* Temperatures of the last contact: figures becomes the largest rise by the heat of friction, K,
+ * the largest temperature of the surfaces in contact, C, and its place, x and y, mm. Refused (100)
+ * but of a contact with with_temperatures. */
 int faststrip_get_flash(faststrip_workspace *workspace, double figures[4]);
 
-/* Temperatures of wheel and rail, C, at n places x, y, mm: in the contact, where both are one, behind
- * it, ahead of it and beside it. Errors as faststrip_get_flash. */
+/* Temperatures of wheel and rail, C, at n places x, y, mm: in the contact, where both are one,
+ * behind it, ahead of it and beside it. Errors as faststrip_get_flash. */
 int faststrip_get_temperatures(faststrip_workspace *workspace, int n, const double *x,
                                const double *y, double *wheel, double *rail);
 

@@ -5,10 +5,10 @@ of a case with &thermal: a map, and along x the row where it is hottest."""
 import sys
 
 import numpy as np
-from tractions import COLUMNS, Field, rectangles
 
 from faststrip_plots import command, picture, style
 from faststrip_plots.tables import InputError
+from tractions import COLUMNS, Field, rectangles
 
 SURFACES = ("surface_wheel_C", "surface_rail_C")
 

@@ -47,7 +47,7 @@ QUANTITIES: Dict[str, Tuple[str, str, str]] = {
     "fatigue_index": ("1", "surface-fatigue index", "yield in shear"),
     "mass": ("ug m-1", "wear, mass per distance rolled", "wear law"),
     "volume": ("mm3 m-1", "wear, volume per distance rolled", "wear law"),
-    "flash_temperature": ("K", "largest rise of temperature by the heat of friction", "temperatures"),
+    "flash_temperature": ("K", "largest rise by the heat of friction", "temperatures"),
     "temperature_max": ("degC", "largest temperature of the surfaces in contact", "temperatures"),
     "temperature_x": ("mm", "x of the largest temperature", "temperatures"),
     "temperature_y": ("mm", "y of the largest temperature", "temperatures"),

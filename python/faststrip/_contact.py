@@ -453,8 +453,8 @@ class Contact:
         material : Material
             Elastic constants of both bodies.
         friction : Friction
-            How mu falls with slip or temperature, which needs the speed, and what it is on the flange, for which
-            contact_angle counts.
+            How mu falls with slip or temperature, which needs the speed, and what it is on the
+            flange, for which contact_angle counts.
         speed : float
             Rolling speed, mm/s.
         contact_angle : float

@@ -152,12 +152,15 @@ def take_flash(call: Any, function: Any, *first: int) -> Flash:
 def temperatures(call: Any, function: Any, x: npt.ArrayLike, y: npt.ArrayLike,
                  *first: int) -> Tuple[Array, Array]:
     """Of wheel and rail at places."""
-    places = np.broadcast_arrays(array("x", x), array("y", y))
-    places = [np.ascontiguousarray(one, dtype=np.float64) for one in places]
-    wheel, rail = np.empty(places[0].shape), np.empty(places[0].shape)
-    call(function, *first, wheel.size, *(c_void_p(one.ctypes.data)
-                                         for one in (*places, wheel, rail)))
-    return wheel, rail
+    x, y = array("x", x), array("y", y)
+    try:
+        places = [np.array(one, order="C") for one in np.broadcast_arrays(x, y)]
+    except ValueError:
+        raise refused("y", f"a number or numbers that go with x, of shape {x.shape}", y) from None
+    found = [np.empty_like(one) for one in places]
+    call(function, *first, found[0].size, *(c_void_p(one.ctypes.data)
+                                            for one in (*places, *found)))
+    return found[0], found[1]
 
 
 class _Law(ctypes.Structure):

@@ -4,9 +4,9 @@ import math
 
 from cli_program import BATCH_COLUMNS, ProgramTest, gap_case, gap_text, rows_of
 
-# CONTACT's example ertz_temperature (github.com/eve70a/CONTACT, examples), of E. Ertz and K. Knothe,
-# Wear 253 (2002): an ellipse of 5.88 by 10.54 mm at 30 m/s. Creepages, turned by half a turn as it
-# rolls towards -x; temperature of the wheel.
+# CONTACT's example ertz_temperature (github.com/eve70a/CONTACT, examples), of E. Ertz and
+# K. Knothe, Wear 253 (2002): an ellipse of 5.88 by 10.54 mm at 30 m/s. Creepages, as seen in the
+# rolling direction, which is -x there; temperature of the wheel.
 ERTZ = {1: (-0.03333, 0.0, 0.0, 0.0), 2: (0.0, 0.0, 0.0, 150.0), 3: (-0.03333, 0.0, 0.0, 150.0),
         4: (-2e-3, 1e-3, -2e-4, 150.0)}
 HOT = "&friction\n  mu_hot = 0.1\n  cold_temperature_C = 60.0\n  hot_temperature_C = 200.0\n/\n"
@@ -169,7 +169,8 @@ class Heat(ProgramTest):
         self.refuses(["hot_temperature_C", "above cold_temperature_C"], hot.format(0.1, 50.0))
         self.refuses(["cold_temperature_C", "must be given with mu_hot"],
                      "&friction\n  mu_hot = 0.1\n  hot_temperature_C = 60.0\n/\n")
-        self.refuses(["temperature_rail_C", "-273.15"], "&thermal\n  temperature_rail_C = -300.0\n/\n")
+        self.refuses(["temperature_rail_C", "-273.15"],
+                     "&thermal\n  temperature_rail_C = -300.0\n/\n")
 
     def test_slow_rolling_is_named(self):
         row = self.row(moving(0.03, speed=40.0), "&thermal\n/\n")

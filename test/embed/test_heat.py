@@ -140,7 +140,7 @@ class Heat(HostTest):
             ("friction", 0, "CALL FSFRIC(IW, 0, FRIC, INFO)"),
             ("heat", 0, "CALL FSHEAT(IW, 1, HEAT, INFO)"),
             ("solved", 8, "CALL FSCONT(IW, 301, YG, HG, AG, IOPT, PAR, RES, INFO)"),
-            ("force", 0, "INFO = NINT(1D6*(RES(8) - (%rD0)))" % float(self.force)),
+            ("force", 0, f"INFO = NINT(1D6*(RES(8) - ({float(self.force)!r}D0)))"),
             ("flash", 0, "CALL FSFLSH(IW, 1, F, INFO)"),
             ("largest", 0, f"INFO = NINT(1D6*(F(2) - {float(self.flash[1])!r}D0))"),
             ("places", 0, "CALL FSTEMP(IW, 1, 5, X, Y, TW, TR, INFO)"),
@@ -161,8 +161,9 @@ class Heat(HostTest):
                    f"speed_mm_s = {SPEED!r}\n/\n&friction mu_hot = {HOT[0] * MU!r}\n"
                    f"cold_temperature_C = {HOT[1]!r}\nhot_temperature_C = {HOT[2]!r}\n/\n"
                    "&thermal " + "\n".join(values) + "\n/\n")
-        done = subprocess.run([str(ROOT / "bin" / "faststrip"), "contact", "case.nml"], cwd=self.folder, check=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, encoding="utf-8")
+        done = subprocess.run([ROOT / "bin" / "faststrip", "contact", "case.nml"],
+                              cwd=self.folder, check=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, encoding="utf-8")
         row, = csv.DictReader(line for line in done.stdout.splitlines() if line[0] != "#")
         found = [float(row[name]) for name in ("Fx_N", "flash_temperature_K", "temperature_max_C",
                                                "temperature_x_mm", "temperature_y_mm")]
@@ -180,7 +181,8 @@ class Heat(HostTest):
             i = sides.index(("right", "left")[place])
             flash = wheelset.flash()[i]
             x, across = flash[2:]
-            self.assertAlmostEqual(wheelset.temperatures(i, x, across)[0], flash[1], places=6)
+            hottest = float(wheelset.temperatures(i, x, across)[0])
+            self.assertAlmostEqual(hottest, flash[1], places=6)
             found.append((flash[0], flash[1], math.copysign(x, -1.0), abs(across)))
             self.assertEqual(x > 0.0, speed < 0.0)
         for other in found[1:]:
@@ -207,4 +209,5 @@ class Heat(HostTest):
             ("polach takes no friction that falls with temperature",
              lambda: law.solve(**self.case(thermal=None))),
             ("there are no temperatures", kept.flash),
+            ("that go with x", lambda: kept.temperatures([1.0, 2.0], [1.0, 2.0, 3.0])),
             ("there are no temperatures", lambda: kept.temperatures(0.0, 0.0)))

@@ -92,7 +92,7 @@ module faststrip_contact_figures
         figure_t('volume', 'wear_mm3_per_m', needs='wear law', &
                  meaning='wear, volume per distance rolled'), &
         figure_t('flash_temperature', 'flash_temperature_K', needs='temperatures', &
-                 meaning='largest rise of temperature by the heat of friction'), &
+                 meaning='largest rise by the heat of friction'), &
         figure_t('temperature_max', 'temperature_max_C', needs='temperatures', &
                  meaning='largest temperature of the surfaces in contact'), &
         figure_t('temperature_x', 'temperature_x_mm', needs='temperatures', &
