@@ -29,6 +29,7 @@ module faststrip_base_friction
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t
+    use faststrip_base_thermal, only: heating_t
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range
     implicit none
@@ -72,6 +73,7 @@ module faststrip_base_friction
         real(wp) :: hot_share = 1.0_wp          !! hot over cold value, 1e-6 to 1
         real(wp) :: cold_temperature = 0.0_wp   !! temperature up to which the cold value counts
         real(wp) :: hot_temperature = 0.0_wp    !! and from which the hot one, C
+        type(heating_t) :: heat                 !! of the bodies, where that counts
     end type friction_t
 
 contains

@@ -50,7 +50,6 @@ module faststrip_tangential_fastsim
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls, falls_when_hot, &
                                        falling_share, hot_share
-    use faststrip_base_thermal, only: heating_t
     use faststrip_normal_simple_hertz, only: hertz_t
     use faststrip_tangential_heat_sources, only: weight, rise_ahead, most_along
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
@@ -76,7 +75,6 @@ module faststrip_tangential_fastsim
         logical :: single_flexibility = .false. !! or three
         type(friction_t) :: friction
             !! how the bound falls with slip and temperature; its other parts do not count here
-        type(heating_t) :: heat !! of the bodies, where it falls with temperature
     end type fastsim_variant_t
 
     !> Areas of the elements gone through so far.
@@ -319,7 +317,7 @@ contains
             px = 0.0_wp
             py = 0.0_wp
             left = 1.0_wp
-            gain = variant%heat%gain*sqrt(h)
+            gain = variant%friction%heat%gain*sqrt(h)
             do j = 1, nx
                 x = row*real(nx - 2*j + 1, wp)/nx
                 ! Half a step from the edge to the middle of the first element.
@@ -346,7 +344,7 @@ contains
                         fall = falling_share(variant%friction, hypot(l1*(px - ahead_x), &
                                                                      l2*(py - ahead_y))/step)/left
                         if (is_hot) fall = fall*hot_share(variant%friction, &
-                            variant%heat%shared + gain*rise_ahead(heat(:j - 1)), &
+                            variant%friction%heat%shared + gain*rise_ahead(heat(:j - 1)), &
                             gain*weight(0)*fall*max((px*l1*(ahead_x - px) &
                                                      + py*l2*(ahead_y - py))/step, 0.0_wp))
                         left = left*fall

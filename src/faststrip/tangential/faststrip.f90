@@ -81,7 +81,6 @@ module faststrip_tangential_faststrip
     use faststrip_base_material, only: material_t, check_material, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls
-    use faststrip_base_thermal, only: heating_t
     use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                                      check_strips
@@ -129,7 +128,7 @@ contains
     !> The sums of `per_strip` add up to the result.
     pure subroutine faststrip_tangential_solve(strips, material, mu, creepage, points_per_strip, &
                                                result, status, field, per_strip, with_fit, &
-                                               friction, heat)
+                                               friction)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -147,8 +146,6 @@ contains
         logical, intent(in), optional :: with_fit !! corrected (S10)? default true
         type(friction_t), intent(in), optional :: friction
             !! how mu falls with slip and temperature (S12); its other parts do not count here
-        type(heating_t), intent(in), optional :: heat
-            !! of the bodies, needed where friction falls with temperature
 
         type(patch_rolling_t) :: rolling
         type(march_sums_t) :: sums
@@ -181,7 +178,6 @@ contains
         rolling = patch_rolling_t(mu=mu, creepage=creepage, points=points_per_strip, &
                                   mu_in_slip=mu, given=creepage)
         if (present(friction)) rolling%friction = friction
-        if (present(heat)) rolling%heat = heat
         if (present(with_fit)) rolling%is_corrected = with_fit
         if (rolling%is_corrected) then
             call find_coupling(strips, material, coupling)

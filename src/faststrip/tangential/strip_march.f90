@@ -6,7 +6,6 @@ module faststrip_tangential_strip_march
     use faststrip_base_limits, only: nothing
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, falls, falls_when_hot, falling_share, hot_share
-    use faststrip_base_thermal, only: heating_t
     use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
     use faststrip_tangential_heat_sources, only: rise_by_steps, own_weight
     use faststrip_tangential_patch_law, only: patch_law_t
@@ -25,7 +24,6 @@ module faststrip_tangential_strip_march
     type :: rolling_t
         real(wp) :: mu = 0.0_wp      !! coefficient of friction, the static one
         type(friction_t) :: friction !! how it falls with slip and temperature
-        type(heating_t) :: heat      !! by friction that falls with temperature
         type(creepage_t) :: creepage !! about the reference point
         integer :: points = 0        !! along each strip, at most `most_points`
     end type rolling_t
@@ -243,9 +241,11 @@ contains
 
         real(wp) :: gain
 
-        gain = rolling%heat%gain*sqrt(length)
-        share = hot_share(rolling%friction, rolling%heat%shared + gain*rise_by_steps(ahead), &
-                          gain*own_weight(size(ahead) + 1)*heat)
+        associate (friction => rolling%friction)
+            gain = friction%heat%gain*sqrt(length)
+            share = hot_share(friction, friction%heat%shared + gain*rise_by_steps(ahead), &
+                              gain*own_weight(size(ahead) + 1)*heat)
+        end associate
     end function hot_share_of
 
     !> Heat of the step to an element that slides, over its area, as `note_elements` has it, N/mm^2.

@@ -10,7 +10,7 @@ module faststrip_contact_method_fastsim
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_method_asked, only: asked_field
-    use faststrip_contact_method_heat, only: friction_heat
+    use faststrip_contact_method_heat, only: heated_friction
     use faststrip_contact_method_march_errors, only: left_out_t, estimate_march
     use faststrip_contact_methods, only: tangential_table, tangential_fastsim, &
                                          tangential_fastsim_elliptic, tangential_fastsim_weighted
@@ -60,8 +60,7 @@ contains
 
         variant%elliptic_bound = self%elliptic_bound
         variant%single_flexibility = self%single_flexibility
-        variant%friction = case%friction
-        variant%heat = friction_heat(case)
+        variant%friction = heated_friction(case)
         material = softened(case%material, case%friction)
         associate (nx => case%methods%fastsim_nx, ny => case%methods%fastsim_ny)
             if (workspace%is_ellipse) then

@@ -3,15 +3,15 @@ module faststrip_contact_method_heat
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, add_limitation, number_text, &
                                      st_under_resolved
-    use faststrip_base_friction, only: falls_when_hot
-    use faststrip_base_thermal, only: heating_t, heating, diffusivity
+    use faststrip_base_friction, only: friction_t, falls_when_hot
+    use faststrip_base_thermal, only: heating, diffusivity
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_tangential_heat_flash, only: find_temperatures
     implicit none
     private
 
-    public :: find_heat, friction_heat
+    public :: find_heat, heated_friction
 
     ! Given: V a/(2 kappa) from which heat flows in depth only (Ertz and Knothe 2002): conduction
     ! along the surface takes off 0.13 % there, 6 % at 1.
@@ -47,10 +47,11 @@ contains
             'least 10 for that, is ' // number_text(peclet))
     end subroutine find_heat
 
-    !> What heat does to friction that falls with temperature; nothing to any other.
-    pure type(heating_t) function friction_heat(case) result(heat)
+    !> The friction of a case, with what its bodies do to it where it falls with temperature.
+    pure type(friction_t) function heated_friction(case) result(friction)
         type(contact_case_t), intent(in) :: case !! checked
 
-        if (falls_when_hot(case%friction)) heat = heating(case%thermal, case%friction%speed)
-    end function friction_heat
+        friction = case%friction
+        if (falls_when_hot(friction)) friction%heat = heating(case%thermal, friction%speed)
+    end function heated_friction
 end module faststrip_contact_method_heat
