@@ -157,7 +157,8 @@ typedef struct faststrip_case {
     int friction;         /* enum faststrip_friction: how friction falls with slip speed */
     double kinetic_share; /* kinetic over static friction, 1e-6 to 1; mu is the static one */
     double half_slip_speed; /* slip speed of half of the fall, mm/s; of friction that falls > 0 */
-    double speed;         /* rolling speed, mm/s, likewise; of wheelsets each contact has its own */
+    double speed;         /* rolling speed, mm/s, likewise, and with temperatures; of wheelsets each
+                           * contact has its own */
     double slope_factor;  /* of the initial slope (Kalker's reduction factor), above 0 to 1 */
     double flange_share;  /* mu on the flange over mu, that on the tread; 1: they are one */
     double tread_angle;   /* contact angle up to which the tread's mu counts, rad, >= 0 */
@@ -172,6 +173,19 @@ typedef struct faststrip_case {
     int fy_is_given;      /* 1: given_fy instead of ceta, likewise; neither of wheelsets (100) */
     double given_fx;      /* longitudinal force on the rail, N */
     double given_fy;      /* lateral force on the rail, N; both together at most mu N (100) */
+    double hot_share;     /* hot over cold friction, 1e-6 to 1, by the temperature of the surfaces
+                           * there; 1: it does not fall. Of the same methods; speed > 0 */
+    double cold_temperature; /* up to which the cold value, that is mu, counts, C */
+    double hot_temperature; /* from which the hot one counts, C; between both linearly */
+    int with_temperatures; /* 1: those of the surfaces, of all methods with elements; speed > 0 */
+    double conductivity_wheel; /* of heat, W/(m K) */
+    double conductivity_rail; /* the same */
+    double heat_capacity_wheel; /* J/(kg K) */
+    double heat_capacity_rail; /* the same */
+    double density_wheel; /* kg/m^3 */
+    double density_rail;  /* the same */
+    double temperature_wheel; /* away from the contact, C */
+    double temperature_rail; /* the same */
 } faststrip_case;
 
 /* Figures of one contact. Estimated errors are not negative; the depth is the penetration less the
@@ -357,6 +371,16 @@ int faststrip_get_wear(faststrip_workspace *workspace, const faststrip_wear_law 
 int faststrip_get_strip_wear(faststrip_workspace *workspace, const faststrip_wear_law *law,
                              int capacity, int *n, double *fx, double *fy, double *friction_power,
                              double *t_gamma_per_area, double *wear, double *pass_depth);
+
+/* Temperatures of the last contact: figures becomes the largest rise by the heat of friction, K,
+ * the largest temperature of the surfaces in contact, C, and its place, x and y, mm. Refused (100)
+ * but of a contact with with_temperatures. */
+int faststrip_get_flash(faststrip_workspace *workspace, double figures[4]);
+
+/* Temperatures of wheel and rail, C, at n places x, y, mm: in the contact, where both are one,
+ * behind it, ahead of it and beside it. Errors as faststrip_get_flash. */
+int faststrip_get_temperatures(faststrip_workspace *workspace, int n, const double *x,
+                               const double *y, double *wheel, double *rail);
 
 /* FASTSIM on an ellipse with semi-axes a along x and b along y, mm; g is the combined shear
  * modulus, MPa; c11, c22, c23 are Kalker's coefficients; nx points in each of ny rows. forces
@@ -684,6 +708,13 @@ int faststrip_wheelset_get_strip_wear(faststrip_wheelset *wheelset, int i,
                                       const faststrip_wear_law *law, int capacity, int *n,
                                       double *fx, double *fy, double *friction_power,
                                       double *t_gamma_per_area, double *wear, double *pass_depth);
+
+/* Temperatures of a contact of the last solution, contacts[i], as faststrip_get_flash and
+ * faststrip_get_temperatures have them, in the frame of faststrip_wheelset_get_elements. */
+int faststrip_wheelset_get_flash(faststrip_wheelset *wheelset, int i, double figures[4]);
+int faststrip_wheelset_get_temperatures(faststrip_wheelset *wheelset, int i, int n,
+                                        const double *x, const double *y, double *wheel,
+                                        double *rail);
 
 /* The gap of contacts[i] of the last solution about its place, for faststrip_set_gap: capacity is
  * the length of the arrays; *n becomes the points of the gap, even if these are more (110). */

@@ -28,7 +28,7 @@ from ._many import ManyResult, solve_many
 from ._plot import plot_profiles
 from ._profile import Gap, Profile, draw_profile, profile_gap
 from ._results import Elements, Result, Step, Strips
-from ._wear import Friction, StripWear, Wear, WearLaw
+from ._wear import Flash, Friction, StripWear, Thermal, Wear, WearLaw
 from ._wheelset import RailState, WheelContact, Wheelset, WheelsetResult
 from .pair.contact import ContactResult, contact
 from .pair.creep_map import CreepMap, creep_map
@@ -42,6 +42,7 @@ __all__ = [
     "CreepMap",
     "Elements",
     "FaststripError",
+    "Flash",
     "Friction",
     "Gap",
     "ImplausibleWarning",
@@ -58,6 +59,7 @@ __all__ = [
     "StripWear",
     "Strips",
     "SweepResult",
+    "Thermal",
     "Wear",
     "WearLaw",
     "WheelContact",

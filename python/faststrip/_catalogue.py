@@ -49,6 +49,10 @@ QUANTITIES: Dict[str, Tuple[str, str, str]] = {
     "volume": ("mm3 m-1", "wear, volume per distance rolled", "wear law"),
     "est_err_cksi": ("1", "estimated error of cksi, 0 where it is given", "force errors"),
     "est_err_ceta": ("1", "estimated error of ceta, 0 where it is given", "force errors"),
+    "flash_temperature": ("K", "largest rise by the heat of friction", "temperatures"),
+    "temperature_max": ("degC", "largest temperature of the surfaces in contact", "temperatures"),
+    "temperature_x": ("mm", "x of the largest temperature", "temperatures"),
+    "temperature_y": ("mm", "y of the largest temperature", "temperatures"),
     "patch": ("1", "number of the patch", ""),
     "x": ("mm", "x, along the rolling direction", ""),
     "y": ("mm", "y, across the rolling direction", ""),
@@ -108,7 +112,7 @@ QUANTITIES: Dict[str, Tuple[str, str, str]] = {
 # As people write units.
 PLAIN: Dict[str, str] = {"mm2": "mm^2", "mm-1": "1/mm", "mm s-1": "mm/s", "rad mm-1": "rad/mm",
                          "N mm-2": "N/mm^2", "ug m-1": "ug per metre", "mm3 m-1": "mm^3 per metre",
-                         "1": ""}
+                         "degC": "C", "1": ""}
 
 
 def members(kind: Any, *names: str) -> List[Tuple[str, Any]]:

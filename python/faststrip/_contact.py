@@ -42,7 +42,20 @@ from ._library import (
 )
 from ._profile import Gap
 from ._results import Elements, Result, Step, Strips
-from ._wear import CONSTANT, Friction, StripWear, Wear, WearLaw, WearQuestion, take_friction
+from ._wear import (
+    CONSTANT,
+    Flash,
+    Friction,
+    StripWear,
+    Thermal,
+    Wear,
+    WearLaw,
+    WearQuestion,
+    take_flash,
+    take_friction,
+    take_thermal,
+    temperatures,
+)
 
 Array = npt.NDArray[np.float64]
 
@@ -436,7 +449,8 @@ class Contact:
               material: Material = Material(), friction: Friction = CONSTANT, speed: float = 0.0,
               contact_angle: float = 0.0, rail_y: float = 0.0, warm_start: bool = False,
               target: Optional[str] = None, tolerance: Optional[float] = None,
-              budget_us: Optional[float] = None, derivatives: bool = False) -> Result:
+              budget_us: Optional[float] = None, derivatives: bool = False,
+              thermal: Optional[Thermal] = None) -> Result:
         """Solve for a load or a penetration: one of the two.
 
         Parameters
@@ -455,8 +469,8 @@ class Contact:
         material : Material
             Elastic constants of both bodies.
         friction : Friction
-            How mu falls with slip, which needs the speed, and what it is on the flange or across
-            the rail, for which contact_angle and rail_y count.
+            How mu falls with slip or temperature, which needs the speed, and what it is on the
+            flange or across the rail, for which contact_angle and rail_y count.
         speed : float
             Rolling speed, mm/s.
         contact_angle : float
@@ -476,6 +490,9 @@ class Contact:
             Time for it, us: without a tolerance it gives the least estimated error in that time.
         derivatives : bool
             Are those over penetration and creepages wanted, too? Not of ``auto`` and references.
+        thermal : Thermal, optional
+            What makes `flash` and `temperatures` known; it needs the speed, and a contact made
+            with_elements.
 
         Returns
         -------
@@ -511,6 +528,7 @@ class Contact:
             self._friction = friction
         case.speed, case.contact_angle, case.rail_y = numbers(MOTION_NAMES,
                                                               (speed, contact_angle, rail_y))
+        take_thermal(case, thermal)
         case.warm_start = flag("warm_start", warm_start)
         want(case, target, tolerance, budget_us)
         figures = Figures()
@@ -606,6 +624,30 @@ class Contact:
             Where tangential is not ``faststrip`` or ``faststrip-plain``.
         """
         return strip_wear(self._call, library.faststrip_get_strip_wear, len(self.strips().p0), law)
+
+    def flash(self) -> Flash:
+        """Largest rise and temperature of the last contact, if it was solved with a thermal.
+
+        Returns
+        -------
+        Flash
+        """
+        return take_flash(self._call, library.faststrip_get_flash)
+
+    def temperatures(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Tuple[Array, Array]:
+        """Temperatures of both surfaces of the last contact, if it was solved with a thermal.
+
+        Parameters
+        ----------
+        x, y : array_like
+            Places, mm: in the contact, behind it, ahead of it, beside it.
+
+        Returns
+        -------
+        wheel, rail : ndarray of float
+            C, at each of them; in the contact both are one.
+        """
+        return temperatures(self._call, library.faststrip_get_temperatures, x, y)
 
     def plot(self, figure: Any = None) -> Any:
         """Draw the last contact with matplotlib: the patch with its strips and pressures, pressures

@@ -1,18 +1,18 @@
-"""Variable friction, T gamma, wear by a law, fatigue."""
+"""Variable friction, T gamma, wear by a law, fatigue, temperatures."""
 
 from __future__ import annotations
 
 import ctypes
 from ctypes import c_double, c_int, c_void_p
 from dataclasses import dataclass
-from typing import Any, ClassVar, Optional, Sequence, Tuple
+from typing import Any, ClassVar, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import above_zero, array, number, numbers, refused
+from ._arguments import above_zero, array, number, numbers, refused, several
 from ._catalogue import Case
-from ._record import Row, Table
+from ._record import Row, Table, described
 
 Array = npt.NDArray[np.float64]
 PLACES = {"contact": 0, "rail": 1, "angle": 2}
@@ -27,8 +27,9 @@ class Friction:
 
     With the slip speed s it becomes ``mu (k + (1 - k) f)``: k is kinetic_share, h half_slip_speed;
     f is 1 - s/(2 h), not below 0, by ``linear``, 1/(1 + s/h) by ``rational``, 2**(-s/h) by
-    ``exponential``. Methods but ``faststrip``, ``faststrip-plain`` and ``fastsim`` with its
-    variants refuse it.
+    ``exponential``. With the temperature of the surfaces there, in the same march, it becomes
+    hot_share times that, linearly between both temperatures. Methods but ``faststrip``,
+    ``faststrip-plain`` and ``fastsim`` with its variants refuse what falls.
 
     Parameters
     ----------
@@ -51,6 +52,10 @@ class Friction:
     over : str
         What the places are: ``contact``, its y, ``rail``, y on its profile, mm, or ``angle``,
         contact angles of either sign, rad.
+    hot_share : float
+        Hot over cold friction, 1e-6 to 1.
+    cold_temperature, hot_temperature : float
+        Temperature up to which friction is cold, and from which it is hot, C.
     """
 
     kind: str = "constant"
@@ -63,11 +68,14 @@ class Friction:
     at: Sequence[float] = ()
     mu: Sequence[float] = ()
     over: str = "rail"
+    hot_share: float = 1.0
+    cold_temperature: float = 0.0
+    hot_temperature: float = 0.0
 
 
 CONSTANT = Friction()
 NAMES = ("kinetic_share", "half_slip_speed", "slope_factor", "flange_share", "tread_angle",
-         "flange_angle")
+         "flange_angle", "hot_share", "cold_temperature", "hot_temperature")
 
 
 def take_friction(case: Case, friction: Any) -> None:
@@ -89,6 +97,89 @@ def take_friction(case: Case, friction: Any) -> None:
     case.n_mu, case.mu_over = table[0].size, PLACES[friction.over]
     case.mu_at, case.mu_table = (values.ctypes.data for values in table)
     case.table = table  # lives as long as the case
+
+
+@dataclass(frozen=True)
+class Thermal:
+    """How wheel and rail take up heat, and how warm they are; steel by default.
+
+    Each is a number of both, or two, of wheel and rail.
+
+    Parameters
+    ----------
+    conductivity : float or two floats
+        Thermal conductivity, W/(m K).
+    heat_capacity : float or two floats
+        J/(kg K).
+    density : float or two floats
+        kg/m^3.
+    temperature : float or two floats
+        Away from the contact, C.
+    """
+
+    conductivity: Union[float, Tuple[float, float]] = 50.0
+    heat_capacity: Union[float, Tuple[float, float]] = 450.0
+    density: Union[float, Tuple[float, float]] = 7850.0
+    temperature: Union[float, Tuple[float, float]] = 20.0
+
+
+THERMAL = "conductivity", "heat_capacity", "density", "temperature"
+
+
+def take_thermal(case: Case, thermal: Any) -> None:
+    """Put bodies into a case that asks for temperatures, or None for none."""
+    case.with_temperatures = thermal is not None
+    if thermal is None:
+        return
+    if not isinstance(thermal, Thermal):
+        raise refused("thermal", "a faststrip.Thermal", thermal)
+    if not case.with_elements:
+        raise refused("thermal", "None unless made with_elements", thermal)
+    for name in THERMAL:
+        value = getattr(thermal, name)
+        if isinstance(value, (tuple, list, np.ndarray)):
+            both = several(f"thermal.{name}", value, "wheel and rail", (2,))
+        else:
+            both = value, value
+        for body, one in zip(("wheel", "rail"), both):
+            setattr(case, f"{name}_{body}", number(f"thermal.{name}", one))
+
+
+@described
+@dataclass(frozen=True)
+class Flash(Row):
+    """Temperatures of one contact.
+
+    Attributes
+    ----------
+    <figures>
+    """
+
+    flash_temperature: float
+    temperature_max: float
+    temperature_x: float
+    temperature_y: float
+
+
+def take_flash(call: Any, function: Any, *first: int) -> Flash:
+    """The largest rise and temperature."""
+    figures = (c_double * len(Flash.__dataclass_fields__))()
+    call(function, *first, figures)
+    return Flash(*figures)
+
+
+def temperatures(call: Any, function: Any, x: npt.ArrayLike, y: npt.ArrayLike,
+                 *first: int) -> Tuple[Array, Array]:
+    """Of wheel and rail at places."""
+    x, y = array("x", x), array("y", y)
+    try:
+        places = [np.array(one, order="C") for one in np.broadcast_arrays(x, y)]
+    except ValueError:
+        raise refused("y", f"a number or numbers that go with x, of shape {x.shape}", y) from None
+    found = [np.empty_like(one) for one in places]
+    call(function, *first, found[0].size, *(c_void_p(one.ctypes.data)
+                                            for one in (*places, *found)))
+    return found[0], found[1]
 
 
 class _Law(ctypes.Structure):

@@ -41,7 +41,20 @@ from ._lookup_wheel import WheelLookup
 from ._profile import Points, Profile, grown, inclination_of, points_of, spacing_of
 from ._record import Record, Table, described
 from ._results import Elements, Strips
-from ._wear import CONSTANT, Friction, StripWear, Wear, WearLaw, WearQuestion, take_friction
+from ._wear import (
+    CONSTANT,
+    Flash,
+    Friction,
+    StripWear,
+    Thermal,
+    Wear,
+    WearLaw,
+    WearQuestion,
+    take_flash,
+    take_friction,
+    take_thermal,
+    temperatures,
+)
 
 Array = npt.NDArray[np.float64]
 WHEELS = {"both": 0, "right": 1, "left": 2}
@@ -353,7 +366,7 @@ class Wheelset:
     mu : float
         Coefficient of friction.
     friction, material, normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, \
-with_elements, estimate, resolution_limit, force_limit, target, tolerance, budget_us
+with_elements, estimate, resolution_limit, force_limit, target, tolerance, budget_us, thermal
         As of `Contact` and `Contact.solve`.
 
     Examples
@@ -377,7 +390,8 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
                  points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
                  with_elements: bool = False, estimate: bool = True, resolution_limit: float = 0.1,
                  force_limit: float = 0.1, target: Optional[str] = None,
-                 tolerance: Optional[float] = None, budget_us: Optional[float] = None) -> None:
+                 tolerance: Optional[float] = None, budget_us: Optional[float] = None,
+                 thermal: Optional[Thermal] = None) -> None:
         self._handle: Optional[Handle] = None
         self._lookup: Optional[Handle] = None
         self._n_contacts = 0
@@ -387,6 +401,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         case.with_elements = flag("with_elements", with_elements)
         case.mu = number("mu", mu)
         take_friction(case, friction)
+        take_thermal(case, thermal)
         take_material(case, material)
         want(case, target, tolerance, budget_us)
         setup, wheels, rails = setup_of(wheel, rail, wheel_left, rail_left, radius, radius_left,
@@ -595,6 +610,36 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         """
         return Elements(*fetch(self._call, library.faststrip_wheelset_get_elements, 8,
                                _counted(contact)))
+
+    def flash(self) -> Tuple[Flash, ...]:
+        """Largest rises and temperatures of the contacts of the last solution, with a thermal.
+
+        Returns
+        -------
+        tuple of Flash
+            In the order of the contacts.
+        """
+        return tuple(take_flash(self._call, library.faststrip_wheelset_get_flash, i)
+                     for i in range(self._n_contacts))
+
+    def temperatures(self, contact: int, x: npt.ArrayLike,
+                     y: npt.ArrayLike) -> Tuple[Array, Array]:
+        """Temperatures of both surfaces of a contact of the last solution.
+
+        Parameters
+        ----------
+        contact : int
+            Counted from 0, those of the right wheel first.
+        x, y : array_like
+            Places, mm, in the frame of `elements`.
+
+        Returns
+        -------
+        wheel, rail : ndarray of float
+            As of `Contact.temperatures`.
+        """
+        return temperatures(self._call, library.faststrip_wheelset_get_temperatures, x, y,
+                            _counted(contact))
 
     def strip_wear(self, contact: int, law: Optional[WearLaw] = None) -> StripWear:
         """Forces and wear of the strips of a contact of the last solution.

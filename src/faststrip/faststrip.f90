@@ -21,6 +21,7 @@
 !> faststrip_base_status                every status by name
 !> faststrip_base_material              moduli that two bodies share
 !> faststrip_base_friction              how friction falls
+!> faststrip_base_thermal               how bodies take up heat
 !> faststrip_influence_closed           influence coefficients of a strip, exact
 !> faststrip_influence_offcentre        the same at any point
 !> faststrip_influence_polynomial       the same by the published table
@@ -38,6 +39,7 @@
 !> faststrip_tangential_fastsim         faststrip_tangential_faststrip
 !> faststrip_tangential_paper           faststrip_tangential_laws
 !> faststrip_tangential_wear_numbers    faststrip_tangential_wear_law
+!> faststrip_tangential_heat_sources    faststrip_tangential_heat_flash: temperatures anywhere
 !> faststrip_contact_methods            the list of methods, names and what each gives
 !> faststrip_contact_method             faststrip_contact_method_capacity: what a method extends
 !> faststrip_contact_reserve            faststrip_contact_solve

@@ -36,6 +36,20 @@ module faststrip_files_columns
         column_t('half_slip_speed_mm_s', holds_numbers, 'slip speed of the middle of friction'), &
         column_t('initial_slope_factor', holds_numbers, 'factor of the initial slope'), &
         column_t('speed_mm_s', holds_numbers, 'rolling speed'), &
+        column_t('mu_hot', holds_numbers, 'coefficient of friction at high temperature'), &
+        column_t('cold_temperature_C', holds_numbers, 'temperature up to which friction is cold'), &
+        column_t('hot_temperature_C', holds_numbers, 'temperature from which friction is hot'), &
+        column_t('conductivity_W_per_mK', holds_numbers, 'thermal conductivity'), &
+        column_t('conductivity_wheel_W_per_mK', holds_numbers, 'conductivity of the wheel'), &
+        column_t('conductivity_rail_W_per_mK', holds_numbers, 'conductivity of the rail'), &
+        column_t('heat_capacity_J_per_kgK', holds_numbers, 'heat capacity'), &
+        column_t('heat_capacity_wheel_J_per_kgK', holds_numbers, 'heat capacity of the wheel'), &
+        column_t('heat_capacity_rail_J_per_kgK', holds_numbers, 'heat capacity of the rail'), &
+        column_t('density_kg_per_m3', holds_numbers, 'density'), &
+        column_t('density_wheel_kg_per_m3', holds_numbers, 'density of the wheel'), &
+        column_t('density_rail_kg_per_m3', holds_numbers, 'density of the rail'), &
+        column_t('temperature_wheel_C', holds_numbers, 'temperature of the wheel, away'), &
+        column_t('temperature_rail_C', holds_numbers, 'temperature of the rail, away'), &
         column_t('given_penetration_mm', holds_numbers, 'penetration that was given'), &
         column_t('given_Fx_N', holds_numbers, 'longitudinal force that was given'), &
         column_t('given_Fy_N', holds_numbers, 'lateral force that was given'), &
@@ -76,6 +90,8 @@ module faststrip_files_columns
         column_t('sx', holds_numbers, 'longitudinal slip over the rolling speed', 'sx'), &
         column_t('sy', holds_numbers, 'lateral slip over the rolling speed', 'sy'), &
         column_t('power_MPa', holds_numbers, 'frictional work per area and distance rolled'), &
+        column_t('surface_wheel_C', holds_numbers, 'temperature of the wheel at the element'), &
+        column_t('surface_rail_C', holds_numbers, 'temperature of the rail at the element'), &
         column_t('h_mm', holds_numbers, 'undeformed gap', 'h'), &
         column_t('inv2R_per_mm', holds_numbers, '1/(2R) along the rolling direction', 'inv2r'), &
         column_t('inclination_rad', holds_numbers, 'inclination of the surfaces', 'inclination')]

@@ -26,6 +26,8 @@ module faststrip_files_units
         unit_t('rad_s', 'rad s-1'), unit_t('mrad_s', 'mrad s-1'), unit_t('deg_s', 'degree s-1'), &
         unit_t('ug_per_m', 'ug m-1'), unit_t('mm3_per_m', 'mm3 m-1'), &
         unit_t('mm_per_km', 'mm km-1'), &
+        unit_t('K', 'K'), unit_t('C', 'degC'), unit_t('W_per_mK', 'W m-1 K-1'), &
+        unit_t('J_per_kgK', 'J kg-1 K-1'), unit_t('kg_per_m3', 'kg m-3'), &
         ! A pass is counted.
         unit_t('mm_per_pass', 'mm')]
 

@@ -17,7 +17,7 @@ module faststrip_kalker_methods
     use faststrip_normal_strips, only: usual_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
-    use faststrip_contact_case, only: contact_case_t, asked_t
+    use faststrip_contact_case, only: contact_case_t, wants_elements, asked_t
     use faststrip_contact_method, only: normal_method_t, tangential_method_t, workspace_t, &
                                         contact_result_t, enter_normal_method, &
                                         enter_tangential_method
@@ -212,7 +212,7 @@ contains
             end if
             if (.not. is_error(status)) call take_rows(memory, workspace, status)
             ! For methods that march along the rows.
-            if (.not. is_error(status) .and. case%asked%field) &
+            if (.not. is_error(status) .and. wants_elements(case%asked)) &
                 call grow_field(workspace, workspace%strips%n*methods%points_per_strip, status)
         end associate
     end subroutine solve_by_norm
@@ -335,7 +335,7 @@ contains
         if (is_error(status)) return
         associate (grid => memory%norm%grid)
             call memory%watch_tang(count(grid%pressure > 0.0_wp), .true.)
-            if (case%asked%field) call grow_field(workspace, size(grid%pressure), status)
+            if (wants_elements(case%asked)) call grow_field(workspace, size(grid%pressure), status)
             if (is_error(status)) return
             call solve_dissimilar(memory%dissimilar, grid, problem, converged, result%tangential, &
                                   status, asked_field(workspace, case))
@@ -376,7 +376,7 @@ contains
         logical :: is_norm
 
         if (falls(workspace%friction)) then
-            call name_falling_friction(status)
+            call name_falling_friction(workspace%friction, status)
             return
         end if
         is_norm = workspace%solved_by == normal_norm
@@ -455,7 +455,7 @@ contains
         call clear_status(status)
         elements = count(grid%pressure > 0.0_wp)
         call memory%watch_tang(elements, .false.)
-        if (case%asked%field) call grow_field(workspace, elements, status)
+        if (wants_elements(case%asked)) call grow_field(workspace, elements, status)
     end subroutine prepare_grid
 
     subroutine solve_on_grid(tang, grid, edges, workspace, case, tangential, status, field)

@@ -26,7 +26,8 @@ RESULT_COLUMNS = (
     "overlap_outside,est_err_penetration,est_err_pmax,est_err_area,est_err_Fx,est_err_Fy,"
     "est_err_Mz,est_err_cksi,est_err_ceta,gap_change_um,choice,strips_across,limitations,"
     "t_gamma_N,t_gamma_spin_N,t_gamma_per_area_N_per_mm2,fatigue_index,wear_ug_per_m,"
-    "wear_mm3_per_m"
+    "wear_mm3_per_m,flash_temperature_K,"
+    "temperature_max_C,temperature_x_mm,temperature_y_mm"
 ).split(",")
 
 # What does not change from run to run and is no status.

@@ -29,7 +29,7 @@ class Bench(LabTest):
         rows = self.written("bench", "tangential", "--contacts", "contacts", "--rounds", "3")
         self.assertEqual(list(rows[0]), (
             "method,strips,points,case,elements,us,ns_per_element,ratio,us_with_field,flags,"
-            "compiler,cpu,cpu_us_median,cpu_us_p95,cpu_us_worst").split(","))
+            "compiler,cpu,cpu_us_median,cpu_us_p95,cpu_us_worst,us_with_heat").split(","))
         self.assertEqual([row["method"] for row in rows], METHODS * 8)
         for row in rows:
             us, elements = float(row["us"]), int(row["elements"])
@@ -37,6 +37,7 @@ class Bench(LabTest):
             self.assert_spread(row, "cpu_us")
             self.assert_close(float(row["ns_per_element"]), 1e3 * us / elements, 1e-12)
             self.assertEqual(row["us_with_field"] == "", row["method"] in LAWS)
+            self.assertEqual(row["us_with_heat"] == "", row["method"] in LAWS)
             self.assertEqual(elements == 1, row["method"] in LAWS)
             if row["method"] == "fastsim":
                 self.assertEqual(float(row["ratio"]), 1.0)

@@ -6,7 +6,16 @@ import re
 import subprocess
 import sys
 
-from cli_program import BATCH_COLUMNS, PROGRAM, ROOT, ProgramTest, gap_text, parabola, rows_of
+from cli_program import (
+    BATCH_COLUMNS,
+    PROGRAM,
+    ROOT,
+    ProgramTest,
+    gap_text,
+    parabola,
+    profile_case,
+    rows_of,
+)
 
 EXAMPLES = ROOT / "example"
 CASE = EXAMPLES / "s1002_uic60.nml"
@@ -69,10 +78,12 @@ class Catalogue(ProgramTest):
     def test_what_is_not_known_is_an_empty_cell(self):
         # Of each figure that needs something: a case that lacks it, and one that has it.
         lacking, having = {}, {}
+        self.write("warm.nml", profile_case(motion="speed_mm_s = 1e4", extra="&thermal\n/\n"))
         for words in (("--tangential", "none"), ("--normal", "equal_area"),
                       ("--tangential", "polach"), (), ("--smooth", "1", "--yield-shear-MPa", "300"),
-                      ("--wear", self.law())):
-            done = self.succeed("contact", CASE, *map(str, words))
+                      ("--wear", self.law()), ("warm.nml",)):
+            case = words[0] if words[:1] == ("warm.nml",) else CASE
+            done = self.succeed("contact", case, *map(str, words[case != CASE:]))
             row = rows_of(done.stdout)[0]
             for one in self.rows:
                 if one["group"] == "contact" and one["column"] in row:

@@ -199,6 +199,7 @@ class Settings(ProgramTest):
                    ("rail", "profile = 'uic60'"), ("material", "mu = 0.3"), ("motion", ""),
                    ("friction", ""), ("numerics", ""))}
         group = row["group"].split()[0]
+        groups.setdefault(group, "")
         kept = [part for part in groups[group].split(", ") if row["name"] not in part.split()]
         groups[group] = "\n  ".join([*kept, f"{row['name']} = {quoted(row, bad)}"])
         text = "".join(f"&{name}\n  {body}\n/\n" for name, body in groups.items())

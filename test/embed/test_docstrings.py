@@ -10,7 +10,8 @@ from installed import HostTest
 
 # Written otherwise in words than as UDUNITS has it.
 UNITS = {"mm2": "mm^2", "mm-1": "1/mm", "mm s-1": "mm/s", "rad mm-1": "rad/mm",
-         "N mm-2": "N/mm^2", "ug m-1": "ug per metre", "mm3 m-1": "mm^3 per metre"}
+         "N mm-2": "N/mm^2", "ug m-1": "ug per metre", "mm3 m-1": "mm^3 per metre",
+         "degC": "C"}
 SECTION = re.compile(r"^(\w+)\n-{3,}\n", re.MULTILINE)
 
 

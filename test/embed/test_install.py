@@ -18,7 +18,8 @@ F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp f
                 " fserrs fsferr fslset fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast"
                 " fsints fswdft fswnew fsrail fsptch fsdamp fswslv fswset fswstr fswelm fswstw"
                 " fsroll fsrprf fswcpy fswfre fsderv fswdrv"
-                " fsfric fsfrtb fswear fsstwr fscfun fsconi fslopn fslfre fslinf fslook fslwin fslcon"
+                " fsfric fsfrtb fswear fsstwr fsheat fsflsh fstemp"
+                " fscfun fsconi fslopn fslfre fslinf fslook fslwin fslcon"
                 " fslwze fswlkp fslwhl fsrdpr fsdoub fsgivn fscrep".split())
 
 CORE = ROOT / "src" / "faststrip"

@@ -43,7 +43,7 @@ PYTHON = (
     ("wheelset", "Wheelsets", "Wheelset RailState WheelsetResult WheelContact"),
     ("geometry", "Contact geometry and conicity",
      "contact_functions ContactFunctions conicity Conicity"),
-    ("wear", "Wear", "Wear StripWear WearLaw"),
+    ("wear", "Wear and temperatures", "Wear StripWear WearLaw Thermal Flash"),
     ("lookup", "Lookup tables", "Lookup LookedUp WheelLookup WheelContacts"),
     ("formulas", "Hertz, FASTSIM, Kalker's coefficients", "hertz fastsim kalker"),
     ("errors", "Errors, limitations, version",

@@ -37,11 +37,13 @@ PARTS = {"case": "What is solved", "result": "How it ended", "contact": "Figures
 NEEDS = {"forces": "creep forces", "stick": "a method that knows it", "strips": "strips",
          "errors": "estimates", "residuals": "estimates", "force errors": "estimates of forces",
          "target": "`--normal auto`", "smoothing": "`--smooth`", "times": "",
+         "temperatures": "`&thermal`",
          "yield in shear": "`--yield-shear-MPa`",
          "wear law": "`--wear`, and a method with forces of strips"}
 # As people write units.
 PLAIN = {"mm2": "mm^2", "mm-1": "1/mm", "mm s-1": "mm/s", "rad mm-1": "rad/mm",
-         "N mm-2": "N/mm^2", "ug m-1": "ug per metre", "mm3 m-1": "mm^3 per metre", "1": ""}
+         "N mm-2": "N/mm^2", "ug m-1": "ug per metre", "mm3 m-1": "mm^3 per metre", "degC": "C",
+         "1": ""}
 
 
 def rows_of(program):

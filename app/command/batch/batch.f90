@@ -152,7 +152,10 @@ contains
                 // ' and ceta.' // new_line('a') &
                 // 'Columns friction_kind, mu_kinetic, half_slip_speed_mm_s,' &
                 // ' initial_slope_factor,' // new_line('a') // 'speed_mm_s: as in &friction and' &
-                // ' &motion of a case file, mu being the static value.' // new_line('a') &
+                // ' &motion of a case file, mu being the static value;' // new_line('a') &
+                // 'mu_hot, cold_temperature_C, hot_temperature_C and those of &thermal likewise:' &
+                // new_line('a') // 'one of the last in a row asks for its temperatures.' &
+                // new_line('a') &
                 // 'Columns mu_y_mm, mu_table: places and coefficients of friction across the' &
                 // ' contact,' // new_line('a') // 'in quotes: "-5, 0, 5".' // new_line('a') &
                 // 'Other columns are carried through. A row that fails gets its status word and' &

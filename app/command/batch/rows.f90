@@ -12,6 +12,7 @@ module faststrip_command_batch_rows
                                    cell_text, cell_number, put_cell, end_row, take_only_row, &
                                    refuse_misspelt
     use faststrip_command_settings_friction, only: read_row_friction, friction_columns
+    use faststrip_command_settings_thermal, only: read_row_thermal, thermal_columns
     use faststrip_command_settings_group, only: beside
     use faststrip_command_program_console, only: concerns_gap
     use faststrip_command_settings_doubts, only: count_doubts
@@ -43,6 +44,7 @@ module faststrip_command_batch_rows
         integer :: penetration = 0 ! 0: there is none
         integer :: given(2) = 0    ! the same
         logical :: has_friction = .false. ! is there one of `friction_columns`?
+        logical :: has_heat = .false.     ! and of `thermal_columns`?
     end type row_columns_t
 
 contains
@@ -72,10 +74,8 @@ contains
             call refuse_misspelt(table, trim(friction_columns(i)), friction_columns, status)
         end do
         if (is_error(status)) return
-        do i = 1, size(friction_columns)
-            columns%has_friction = columns%has_friction &
-                                   .or. column_index(table, trim(friction_columns(i))) > 0
-        end do
+        columns%has_friction = has_any(friction_columns)
+        columns%has_heat = has_any(thermal_columns)
         do i = 1, table%n_columns
             if (.not. any(result_columns == table%names(i)%text)) cycle
             ! A table that has a column the result would add cannot be carried through.
@@ -83,6 +83,14 @@ contains
                             // 'result, got ' // table%names(i)%text // ' (' // table%file // ')')
             return
         end do
+
+    contains
+
+        pure logical function has_any(names)
+            character(len=*), intent(in) :: names(:)
+
+            has_any = any([(column_index(table, trim(names(i))), i=1, size(names))] > 0)
+        end function has_any
     end subroutine find_columns
 
     !> Solve the contact of a line and add its row to what the worker has collected.
@@ -228,5 +236,7 @@ contains
         case%creepage = creepage_t(number(7), number(8), number(9))
         if (columns%has_friction) &
             call read_row_friction(table, 1, case%mu, case%friction, status)
+        if (columns%has_heat .and. .not. is_error(status)) &
+            call read_row_thermal(table, 1, case, status)
     end subroutine read_row
 end module faststrip_command_batch_rows

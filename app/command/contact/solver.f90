@@ -9,7 +9,7 @@ module faststrip_command_contact_solver
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_geometry_gap_smoothing, only: smooth_gap
-    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_case, only: contact_case_t, wants_elements
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
@@ -103,7 +103,8 @@ contains
                 call reserve_workspace(solver%workspace, methods, solver%points, status)
                 solver%has_field = .false.
             end if
-            if (.not. is_error(status) .and. case%asked%field .and. .not. solver%has_field) then
+            if (.not. is_error(status) .and. wants_elements(case%asked) &
+                .and. .not. solver%has_field) then
                 call reserve_contact_field(solver%workspace, methods, status)
                 solver%has_field = .true.
             end if

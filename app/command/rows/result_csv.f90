@@ -6,14 +6,17 @@ module faststrip_command_rows_result_csv
                                          figure_est_err_cksi, figure_est_err_fx, &
                                          figure_est_err_fy, figure_est_err_mz, &
                                          figure_est_err_penetration, figure_est_err_pmax, &
-                                         figure_fatigue_index, figure_friction_power, figure_fx, &
+                                         figure_fatigue_index, figure_flash_temperature, &
+                                         figure_friction_power, figure_fx, &
                                          figure_fy, figure_gap_change, figure_mz, &
                                          figure_n_patches, figure_normal_us, &
                                          figure_overlap_outside, figure_penetration, figure_pmax, &
                                          figure_residual_inside, figure_stick_fraction, &
                                          figure_strips_across, figure_t_gamma, &
                                          figure_t_gamma_per_area, figure_t_gamma_spin, &
-                                         figure_tangential_us, figure_wear_mass, &
+                                         figure_tangential_us, figure_temperature_max, &
+                                         figure_temperature_x, figure_temperature_y, &
+                                         figure_wear_mass, &
                                          figure_wear_volume, figure_x_max, figure_y_max, &
                                          figure_y_min, figures, n_figures
     use faststrip_contact_figure_values, only: find_figures
@@ -36,13 +39,15 @@ module faststrip_command_rows_result_csv
     public :: element_columns, put_element
 
     !> Names of the columns of an element, in the order of `put_element`.
-    character(len=*), parameter :: element_columns(*) = [character(len=9) :: &
-        'x_mm', 'y_mm', 'area_mm2', 'state', 'pn_MPa', 'px_MPa', 'py_MPa', 'sx', 'sy', 'power_MPa']
+    character(len=*), parameter :: element_columns(*) = [character(len=15) :: &
+        'x_mm', 'y_mm', 'area_mm2', 'state', 'pn_MPa', 'px_MPa', 'py_MPa', 'sx', 'sy', &
+        'power_MPa', 'surface_wheel_C', 'surface_rail_C']
 
     !> Begins what is said where there is no wear in spite of a law.
     character(len=*), parameter :: no_wear = 'no wear: '
 
-    !> Figures in the order of their columns: of the pressures and forces, times, errors; of wear.
+    !> Figures in the order of their columns: of the pressures and forces, times, errors; of what
+    !> friction does to the surfaces.
     integer, parameter :: main_figures(*) = [ &
         figure_penetration, figure_area, figure_pmax, figure_y_min, figure_y_max, figure_x_max, &
         figure_n_patches, figure_fx, figure_fy, figure_mz, figure_friction_power, &
@@ -52,7 +57,8 @@ module faststrip_command_rows_result_csv
         figure_est_err_cksi, figure_est_err_ceta, figure_gap_change]
     integer, parameter :: wear_figures(*) = [ &
         figure_t_gamma, figure_t_gamma_spin, figure_t_gamma_per_area, figure_fatigue_index, &
-        figure_wear_mass, figure_wear_volume]
+        figure_wear_mass, figure_wear_volume, figure_flash_temperature, figure_temperature_max, &
+        figure_temperature_x, figure_temperature_y]
 
     !> Names of a strip's columns, in the order of `put_strip`.
     character(len=*), parameter :: strip_columns(*) = [character(len=26) :: &
@@ -256,5 +262,11 @@ contains
         call put_cell(writer, field%state(i))
         call put_cells(writer, [field%pn(i), field%px(i), field%py(i), field%sx(i), field%sy(i), &
                                 field_power(field, i)])
+        if (field%has_temperature) then
+            ! Where they touch both have one temperature.
+            call put_cells(writer, spread(field%temperature(i), 1, 2))
+        else
+            call put_empty_cells(writer, 2)
+        end if
     end subroutine put_element
 end module faststrip_command_rows_result_csv

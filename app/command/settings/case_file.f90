@@ -17,7 +17,7 @@ module faststrip_command_settings_case_file
     implicit none
     private
 
-    public :: case_t, read_case, read_bodies_of, read_settings
+    public :: case_t, read_case, read_bodies_of, read_settings, read_thermal_group
 
     !> A case as its file tells it: a contact but for its gap, which the profiles make or another
     !> file holds. The load may be a vertical one, creepages may follow from the shift.
@@ -54,6 +54,7 @@ contains
         call read_bodies(content, from_profiles, .false., case%bodies)
         call read_motion_group(content, from_profiles, case)
         call read_friction_group(content, case%mu, from_profiles, case%friction)
+        call read_thermal_group(content, case)
         call read_settings(content, 'numerics', case, group)
         if (case%damping > 0.0_wp) &
             call refuse(group, 'contact_damping_s_per_mm', 'is for wheelsets only', '')
@@ -79,7 +80,21 @@ contains
         call refuse_each(rail, ['roller_radius_mm'], 'is for contact, sweep and wheelset only')
     end subroutine read_bodies_of
 
-    !> Read a group whose values each go to one place of a case: `material` or `numerics`.
+    !> Read the group that asks for temperatures, if there is one, empty or not.
+    subroutine read_thermal_group(content, case)
+        type(case_text_t), intent(in) :: content !! a case file
+        class(settings_t), intent(inout) :: case !! has the rolling speed, 0 if not given
+
+        type(group_t) :: group
+
+        call read_settings(content, 'thermal', case, group)
+        case%asked%temperatures = group%first > 0
+        if (.not. case%asked%temperatures .or. case%friction%speed > 0.0_wp) return
+        call read_group(content, 'motion', .true., group)
+        call refuse(group, 'speed_mm_s', 'must be given with &thermal', '')
+    end subroutine read_thermal_group
+
+    !> Read a group whose values each go to one place of a case: `material`, `thermal`, `numerics`.
     subroutine read_settings(content, name, case, group)
         type(case_text_t), intent(in) :: content !! a case file
         character(len=*), intent(in) :: name     !! of the group

@@ -10,21 +10,20 @@ module faststrip_command_settings_friction
     use faststrip_files_csv, only: csv_table_t, column_index, cell_text
     use faststrip_command_settings_group, only: case_text_t, group_t, read_group, is_set, &
                                                 given_value, number_of, refuse, refuse_each
-    use faststrip_command_settings_table, only: row_friction, value_t, read_value, kind_words, &
+    use faststrip_command_settings_table, only: row_friction, setting_t, value_t, read_value, &
+                                                kind_words, &
                                                 range_words, no_fault, wrong_kind
     implicit none
     private
 
-    public :: read_friction_group, read_row_friction, friction_columns
+    public :: read_friction_group, read_row_friction, read_row_values, friction_columns
 
-    ! What falls, as names of a case file: the kind, then what it needs, then what any may have.
-    character(len=*), parameter :: falling_names(4) = row_friction(:4)%key
     !> The columns that a table may have for it.
-    character(len=*), parameter :: friction_columns(7) = [character(len=20) :: &
+    character(len=*), parameter :: friction_columns(10) = [character(len=20) :: &
         'friction_kind', row_friction(2:)%key]
     ! Given: of `friction_columns`.
     integer, parameter :: at_kind = 1, at_kinetic = 2, at_half = 3, at_slope = 4, at_speed = 5, &
-                          at_y = 6, at_table = 7
+                          at_mu_hot = 6, at_cold = 7, at_hot = 8, at_y = 9, at_table = 10
 
 contains
 
@@ -36,25 +35,26 @@ contains
         type(friction_t), intent(inout) :: law   !! has the speed of `&motion`, 0 if not given
 
         type(group_t) :: group
-        type(value_t) :: values(at_slope)
+        type(value_t) :: values(at_hot)
         character(len=:), allocatable :: what
         real(wp) :: mu_flange
         integer :: at
 
         call read_group(content, 'friction', .false., group)
-        do at = 1, at_slope
-            values(at) = given_value(group, trim(falling_names(at)))
+        do at = 1, at_hot
+            if (at /= at_speed) values(at) = given_value(group, trim(row_friction(at)%key))
         end do
-        call set_falling(values, mu, [character(len=60) :: &
+        call set_falling(values(:at_slope), mu, [character(len=60) :: &
             'must not be given with kind constant', 'must be given', &
             'must be at most &material mu, the static value', &
             'must be constant without &motion speed_mm_s'], law, at, what)
         if (at == at_speed) at = at_kind
-        if (at > 0) then
-            if (values(at)%is_given) &
-                call refuse(group, trim(falling_names(at)), what, values(at)%text)
-            call refuse(group, trim(falling_names(at)), what, '')
-        end if
+        if (at > 0) call refuse_value()
+        call set_hot(values(at_mu_hot:at_hot), mu, [character(len=60) :: &
+            'must not be given without mu_hot', 'must be given with mu_hot', &
+            'must be at most &material mu, the cold value', &
+            'must not be given without &motion speed_mm_s'], law, at, what)
+        if (at > 0) call refuse_value()
         call read_table(group, from_profiles, law)
         if (.not. is_set(group, 'mu_flange')) then
             call refuse_each(group, [character(len=20) :: 'tread_angle_rad', 'flange_angle_rad'], &
@@ -77,6 +77,13 @@ contains
                         number_text(law%flange_angle))
 
     contains
+
+        subroutine refuse_value()
+            associate (key => trim(row_friction(at)%key))
+                if (values(at)%is_given) call refuse(group, key, what, values(at)%text)
+                call refuse(group, key, what, '')
+            end associate
+        end subroutine refuse_value
 
         subroutine need(key)
             character(len=*), intent(in) :: key
@@ -155,28 +162,20 @@ contains
 
         type(value_t) :: values(at_table)
         character(len=:), allocatable :: text, what
-        integer :: at, fault
+        integer :: at
         logical :: is_wrong_at
 
-        call clear_status(status)
-        do at = 1, at_table
-            text = cell_text(table, row, column_index(table, trim(friction_columns(at))))
-            if (len(text) == 0) cycle
-            call read_value(row_friction(at), text, values(at), fault)
-            if (fault == no_fault) cycle
-            if (fault == wrong_kind) then
-                call refuse_cell(st_file_format, kind_words(row_friction(at)))
-            else
-                call refuse_cell(st_bad_argument, &
-                                 range_words(row_friction(at), values(at)%number))
-            end if
-            return
-        end do
+        call read_row_values(table, row, friction_columns, row_friction, values, status)
+        if (is_error(status)) return
         if (values(at_speed)%is_given) law%speed = values(at_speed)%number
         call set_falling(values(:at_slope), mu, [character(len=60) :: &
             'must be empty with constant friction', 'must be given with falling friction', &
             'must be at most mu, the static value', 'must be given with falling friction'], law, &
             at, what)
+        if (at == 0) call set_hot(values(at_mu_hot:at_hot), mu, [character(len=60) :: &
+            'must be empty without mu_hot', 'must be given with mu_hot', &
+            'must be at most mu, the cold value', 'must be empty without speed_mm_s'], law, at, &
+            what)
         if (at == 0) then
             call set_table(values(at_y), values(at_table), over_contact, law, what, is_wrong_at)
             if (len(what) == 0) return
@@ -186,6 +185,33 @@ contains
         if (values(at)%is_given) text = values(at)%text
         call set_status(status, st_bad_argument, trim(friction_columns(at)) // ' ' // what // &
                         ", got '" // text // "'")
+    end subroutine read_row_friction
+
+    !> Some cells of a row; an empty one, or one of a column that is not there, is not given.
+    subroutine read_row_values(table, row, columns, settings, values, status)
+        type(csv_table_t), intent(in) :: table      !! a table that was read
+        integer, intent(in) :: row                  !! of it
+        character(len=*), intent(in) :: columns(:)  !! their names
+        type(setting_t), intent(in) :: settings(:)  !! what they may be
+        type(value_t), intent(inout) :: values(:)   !! what they are
+        type(status_t), intent(out) :: status       !! `st_bad_argument`, `st_file_format`
+
+        character(len=:), allocatable :: text
+        integer :: at, fault
+
+        call clear_status(status)
+        do at = 1, size(columns)
+            text = cell_text(table, row, column_index(table, trim(columns(at))))
+            if (len(text) == 0) cycle
+            call read_value(settings(at), text, values(at), fault)
+            if (fault == no_fault) cycle
+            if (fault == wrong_kind) then
+                call refuse_cell(st_file_format, kind_words(settings(at)))
+            else
+                call refuse_cell(st_bad_argument, range_words(settings(at), values(at)%number))
+            end if
+            return
+        end do
 
     contains
 
@@ -193,10 +219,10 @@ contains
             integer, intent(in) :: code
             character(len=*), intent(in) :: words
 
-            call set_status(status, code, trim(friction_columns(at)) // ' must be ' // &
-                            trim(words) // ", got '" // text // "'")
+            call set_status(status, code, trim(columns(at)) // ' must be ' // trim(words) // &
+                            ", got '" // text // "'")
         end subroutine refuse_cell
-    end subroutine read_row_friction
+    end subroutine read_row_values
 
     !> What falls with slip speed.
     subroutine set_falling(values, mu, words, law, at, what)
@@ -231,9 +257,48 @@ contains
             logical, intent(in) :: is_wrong
             character(len=*), intent(in) :: word
 
-            if (.not. is_wrong .or. at > 0) return
-            at = i
-            what = trim(word)
+            call blame_first(i, is_wrong, word, at, what)
         end subroutine blame
     end subroutine set_falling
+
+    !> What falls with temperature.
+    subroutine set_hot(values, mu, words, law, at, what)
+        type(value_t), intent(in) :: values(at_mu_hot:at_hot) ! each in its range
+        real(wp), intent(in) :: mu                      ! the cold value
+        character(len=*), intent(in) :: words(4)        ! not wanted, missing, too large, no speed
+        type(friction_t), intent(inout) :: law          ! has the speed, 0 if it is not known
+        integer, intent(out) :: at                      ! what is wrong; 0: nothing is
+        character(len=:), allocatable, intent(out) :: what ! of `words`, or more
+
+        at = 0
+        what = ''
+        associate (is_hot => values(at_mu_hot)%is_given, value => values(at_mu_hot)%number, &
+                   cold => values(at_cold), hot => values(at_hot))
+            call blame_first(at_cold, cold%is_given .neqv. is_hot, &
+                             merge(words(2), words(1), is_hot), at, what)
+            call blame_first(at_hot, hot%is_given .neqv. is_hot, &
+                             merge(words(2), words(1), is_hot), at, what)
+            call blame_first(at_mu_hot, is_hot .and. value > mu, words(3), at, what)
+            call blame_first(at_mu_hot, is_hot .and. law%speed <= 0.0_wp, words(4), at, what)
+            call blame_first(at_hot, is_hot .and. hot%number <= cold%number, &
+                             'must be above cold_temperature_C', at, what)
+            if (at > 0 .or. .not. is_hot) return
+            law%hot_share = value/mu
+            law%cold_temperature = cold%number
+            law%hot_temperature = hot%number
+        end associate
+    end subroutine set_hot
+
+    !> Note what is wrong, if nothing was before.
+    subroutine blame_first(i, is_wrong, word, at, what)
+        integer, intent(in) :: i
+        logical, intent(in) :: is_wrong
+        character(len=*), intent(in) :: word
+        integer, intent(inout) :: at
+        character(len=:), allocatable, intent(inout) :: what
+
+        if (.not. is_wrong .or. at > 0) return
+        at = i
+        what = trim(word)
+    end subroutine blame_first
 end module faststrip_command_settings_friction

@@ -31,7 +31,8 @@ module faststrip_command_settings_group
         'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_'
 
     character(len=*), parameter :: groups(*) = [character(len=8) :: &
-        'contact', 'material', 'wheel', 'rail', 'motion', 'friction', 'numerics', 'sweep', 'state']
+        'contact', 'material', 'wheel', 'rail', 'motion', 'friction', 'thermal', &
+        'numerics', 'sweep', 'state']
 
     !> A case file as it was read.
     type :: case_text_t

@@ -2,6 +2,7 @@
 module faststrip_command_settings_methods
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
+    use faststrip_base_thermal, only: of_wheel, of_rail
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_methods, only: method_t, normal_method, tangential_method, &
                                          tangential_none
@@ -43,7 +44,7 @@ contains
 
         type(status_t) :: status
 
-        associate (methods => choice%methods, wanted => choice%wanted)
+        associate (methods => choice%methods, wanted => choice%wanted, thermal => choice%thermal)
             select case (key)
             case ('E_wheel_MPa'); choice%material%e_wheel = value%number
             case ('E_rail_MPa'); choice%material%e_rail = value%number
@@ -54,6 +55,17 @@ contains
             case ('ceta'); choice%creepage%ceta = value%number
             case ('cphi_rad_per_mm'); choice%creepage%cphi = value%number
             case ('speed_mm_s'); choice%friction%speed = value%number
+            case ('conductivity_W_per_mK'); thermal%conductivity = value%number
+            case ('conductivity_wheel_W_per_mK'); thermal%conductivity(of_wheel) = value%number
+            case ('conductivity_rail_W_per_mK'); thermal%conductivity(of_rail) = value%number
+            case ('heat_capacity_J_per_kgK'); thermal%heat_capacity = value%number
+            case ('heat_capacity_wheel_J_per_kgK'); thermal%heat_capacity(of_wheel) = value%number
+            case ('heat_capacity_rail_J_per_kgK'); thermal%heat_capacity(of_rail) = value%number
+            case ('density_kg_per_m3'); thermal%density = value%number
+            case ('density_wheel_kg_per_m3'); thermal%density(of_wheel) = value%number
+            case ('density_rail_kg_per_m3'); thermal%density(of_rail) = value%number
+            case ('temperature_wheel_C'); thermal%temperature(of_wheel) = value%number
+            case ('temperature_rail_C'); thermal%temperature(of_rail) = value%number
             case ('normal'); methods%normal = normal_method(value%text)
             case ('tangential'); methods%tangential = tangential_method(value%text)
             case ('strips_per_patch'); methods%strips_per_patch = value%whole

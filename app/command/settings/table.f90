@@ -12,6 +12,7 @@ module faststrip_command_settings_table
                                         of_inclination, of_noise, of_poisson_ratio, of_radius, &
                                         of_shift, of_slip_speed, of_speed, of_tread_line, of_yield
     use faststrip_base_status, only: message_length
+    use faststrip_base_thermal, only: coldest
     use faststrip_base_text, only: lower_case, parse_real, parse_integer, integer_text, trim_blanks
     use faststrip_contact_methods, only: normal_table, tangential_table, most_strips, most_rows
     use faststrip_contact_wanted, only: target_names
@@ -19,7 +20,8 @@ module faststrip_command_settings_table
     implicit none
     private
 
-    public :: value_t, settings, row_friction, n_state, state_names, of_group
+    public :: setting_t, value_t, settings, row_friction, thermal_settings, n_state, state_names
+    public :: of_group
     public :: find_setting, read_value, kind_words, range_words, full_words, option_help, one_of
     public :: a_text, a_path, a_word, a_number, a_list, a_flag
     public :: no_fault, wrong_kind, out_of_range
@@ -31,7 +33,7 @@ module faststrip_command_settings_table
     !> Where numbers must lie; all must be finite.
     !> Given: numbers of kinds.
     integer, parameter :: anywhere = 0, above_0 = 1, from_0 = 2, below_half = 3, up_to_1 = 4, &
-                          a_slope = 5
+                          a_slope = 5, from_coldest = 6
     !> What is wrong with a value: not of its kind, or not in its range.
     !> Given: numbers of kinds.
     integer, parameter :: no_fault = 0, wrong_kind = 1, out_of_range = 2
@@ -50,7 +52,7 @@ module faststrip_command_settings_table
     !> One setting.
     type :: setting_t
         character(len=10) :: group = ''      !! of the case file; two that know it: `wheel rail`
-        character(len=27) :: key = ''        !! its name there
+        character(len=29) :: key = ''        !! its name there
         integer :: kind = a_number           !! one of the `a_` numbers
         character(len=160) :: help = ''      !! what it is; lines parted by line feeds
         integer :: range = anywhere          !! of numbers
@@ -165,8 +167,9 @@ module faststrip_command_settings_table
         setting_t('motion', 'cksi', a_number, 'longitudinal creepage', default='0'), &
         setting_t('motion', 'ceta', a_number, 'lateral creepage', default='0'), &
         setting_t('motion', 'cphi_rad_per_mm', a_number, 'spin creepage', default='0'), &
-        setting_t('motion', 'speed_mm_s', a_number, 'rolling speed, for friction that falls', &
-                  range=above_0, quantity=of_speed), &
+        setting_t('motion', 'speed_mm_s', a_number, &
+                  'rolling speed, for friction that falls and temperatures', range=above_0, &
+                  quantity=of_speed), &
         setting_t('motion', 'Fx_N', a_number, &
                   'longitudinal force on the rail, instead of `cksi`, which is found'), &
         setting_t('motion', 'Fy_N', a_number, &
@@ -190,6 +193,12 @@ module faststrip_command_settings_table
                   quantity=of_contact_angle), &
         setting_t('friction', 'flange_angle_rad', a_number, &
                   'contact angle from which `mu_flange` counts', quantity=of_contact_angle), &
+        setting_t('friction', 'mu_hot', a_number, 'coefficient at high temperature', &
+                  range=above_0), &
+        setting_t('friction', 'cold_temperature_C', a_number, &
+                  'temperature of the surfaces up to which friction is cold', range=from_coldest), &
+        setting_t('friction', 'hot_temperature_C', a_number, &
+                  'temperature of the surfaces from which `mu_hot` counts', range=from_coldest), &
         setting_t('friction', 'mu_y_mm', a_list, &
                   'where `mu_table` counts: y of the rail profile, increasing; of a gap file y of' &
                   // newline // 'the gap; not beside `mu_angle_rad`', most=most_places), &
@@ -200,10 +209,35 @@ module faststrip_command_settings_table
                   'coefficients there, in place of `mu`: linear between, constant beyond', &
                   range=from_0, most=most_places)]
 
-    !> Of the friction of a row: kind, coefficient, slip speed, factor of the slope; the speed;
-    !> places and coefficients of a table. With it rows of a batch look nothing up.
-    type(setting_t), parameter :: row_friction(7) = [of_friction_laws(:4), of_motion(6), &
-                                                     of_friction_laws(8), of_friction_laws(10)]
+    !> Of the friction of a row: kind, coefficient, slip speed, factor of the slope; the speed; hot
+    !> coefficient, both temperatures; places and coefficients of a table. With it rows of a batch
+    !> look nothing up.
+    type(setting_t), parameter :: row_friction(10) = [of_friction_laws(:4), of_motion(6), &
+                                                      of_friction_laws(8:11), of_friction_laws(13)]
+
+    !> What makes a contact warm. What is of both bodies stands before what is of one.
+    type(setting_t), parameter :: thermal_settings(*) = [ &
+        setting_t('thermal', 'conductivity_W_per_mK', a_number, 'thermal conductivity of both', &
+                  range=above_0, default='50'), &
+        setting_t('thermal', 'conductivity_wheel_W_per_mK', a_number, 'of the wheel', &
+                  range=above_0), &
+        setting_t('thermal', 'conductivity_rail_W_per_mK', a_number, 'of the rail', &
+                  range=above_0), &
+        setting_t('thermal', 'heat_capacity_J_per_kgK', a_number, 'heat capacity of both', &
+                  range=above_0, default='450'), &
+        setting_t('thermal', 'heat_capacity_wheel_J_per_kgK', a_number, 'of the wheel', &
+                  range=above_0), &
+        setting_t('thermal', 'heat_capacity_rail_J_per_kgK', a_number, 'of the rail', &
+                  range=above_0), &
+        setting_t('thermal', 'density_kg_per_m3', a_number, 'density of both', range=above_0, &
+                  default='7850'), &
+        setting_t('thermal', 'density_wheel_kg_per_m3', a_number, 'of the wheel', &
+                  range=above_0), &
+        setting_t('thermal', 'density_rail_kg_per_m3', a_number, 'of the rail', range=above_0), &
+        setting_t('thermal', 'temperature_wheel_C', a_number, &
+                  'of the wheel, away from the contact', range=from_coldest, default='20'), &
+        setting_t('thermal', 'temperature_rail_C', a_number, &
+                  'of the rail, away from the contact', range=from_coldest, default='20')]
 
     type(setting_t), parameter :: of_numerics(*) = [ &
         setting_t('numerics', 'normal', a_word, 'normal method, one of the above', &
@@ -345,12 +379,12 @@ module faststrip_command_settings_table
                   // ' mean', default='0')]
 
     !> Their names, in tables and in the group `state`.
-    character(len=27), parameter :: state_names(n_state) = of_state(2:)%key
+    character(len=29), parameter :: state_names(n_state) = of_state(2:)%key
 
     !> The table.
     type(setting_t), parameter :: settings(*) = [ &
         of_contact, of_wheel, of_rail, of_profiles, of_material, of_motion, of_friction_laws, &
-        of_numerics, of_state, of_sweep]
+        thermal_settings, of_numerics, of_state, of_sweep]
 
 contains
 
@@ -482,6 +516,7 @@ contains
         case (below_half); is_within = number >= 0.0_wp .and. number < 0.5_wp
         case (up_to_1); is_within = number > 0.0_wp .and. number <= 1.0_wp
         case (a_slope); is_within = abs(number) <= 1.0_wp
+        case (from_coldest); is_within = number >= coldest
         end select
     end function is_within
 
@@ -598,6 +633,7 @@ contains
                 words = 'above 0'
                 if (number > 1.0_wp) words = 'at most 1'
             case (a_slope); words = 'the tangent of the rail inclination, -1 to 1'
+            case (from_coldest); words = 'at least -273.15'
             end select
         end select
     end function range_words

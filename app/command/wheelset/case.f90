@@ -8,7 +8,7 @@ module faststrip_command_wheelset_case
     use faststrip_wheelset_types, only: wheelset_model_t, standard_accuracy
     use faststrip_wheelset_solve, only: make_wheelset, set_damping
     use faststrip_command_program_console, only: fail_on_error
-    use faststrip_command_settings_case_file, only: read_settings
+    use faststrip_command_settings_case_file, only: read_settings, read_thermal_group
     use faststrip_command_settings_friction, only: read_friction_group
     use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, read_group, &
                                                 is_set, text_of, refuse
@@ -46,6 +46,7 @@ contains
         ! Each contact has its own rolling speed.
         case%friction%speed = 1.0_wp
         call read_friction_group(content, case%mu, .true., case%friction)
+        call read_thermal_group(content, case)
         call read_bodies(content, .true., .true., case%bodies)
         call read_settings(content, 'numerics', case, group)
         if (present(for_table)) call refuse_dear_methods(group, case)

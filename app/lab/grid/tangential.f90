@@ -1,7 +1,7 @@
 !> `faststrip-lab bench tangential`: what the tangential methods cost, side by side in one run.
 !>
 !> All are times of the processor: of many rounds the median (`us` is an older name of it), the 95th
-!> percentile and the worst; `us_with_field` is a median.
+!> percentile and the worst; `us_with_field` and `us_with_heat`, with temperatures, are medians.
 module faststrip_lab_grid_tangential
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, number_text
@@ -28,13 +28,14 @@ module faststrip_lab_grid_tangential
     integer, parameter :: sizes(4) = [5, 15, 31, 61]
     ! What the others are measured by, at the same number of elements.
     character(len=*), parameter :: measure = 'fastsim'
-    real(wp), parameter :: mu = 0.3_wp
+    real(wp), parameter :: mu = 0.3_wp, speed = 3.0e4_wp
 
     !> Times of all methods on one contact, us.
     type :: times_t
         ! Forces only: median, 95th percentile, worst.
         real(wp) :: forces(size(spread_names), size(tangential_methods)) = 0.0_wp
         real(wp) :: field(size(tangential_methods)) = 0.0_wp  ! with the elements
+        real(wp) :: heat(size(tangential_methods)) = 0.0_wp   ! and with temperatures
         integer :: elements = 0
     end type times_t
 
@@ -56,7 +57,7 @@ contains
         call begin_table(writer, file)
         call put_header(writer, [character(len=16) :: 'method', 'strips', 'points', 'case', &
                                  'elements', 'us', 'ns_per_element', 'ratio', 'us_with_field', &
-                                 'flags', 'compiler', 'cpu', cpu_columns])
+                                 'flags', 'compiler', 'cpu', cpu_columns, 'us_with_heat'])
         do k = 1, size(sizes)
             do i = 1, size(cases)
                 call measure_case(cases(i), sizes(k), rounds, times(i))
@@ -79,7 +80,7 @@ contains
         type(workspace_t) :: workspace
         type(contact_result_t) :: result
         type(status_t) :: status
-        real(wp), dimension(rounds, size(tangential_methods)) :: forces, with_field
+        real(wp), dimension(rounds, size(tangential_methods)) :: forces, with_field, with_heat
         integer, dimension(size(tangential_methods)) :: repetitions
         integer :: m, round
 
@@ -88,6 +89,7 @@ contains
         contact%estimate = .false.
         contact%methods%strips_per_patch = n
         contact%methods%points_per_strip = n
+        contact%friction%speed = speed
         call solve_pressures(workspace, contact, result, status)
         call fail_on_error(status)
         ! The same number of elements for FASTSIM on one patch.
@@ -99,27 +101,31 @@ contains
         repetitions = 1
         do m = 1, size(tangential_methods)
             do
-                if (time_of(m, .false.)*repetitions(m) > shortest_us) exit
+                if (time_of(m, .false., .false.)*repetitions(m) > shortest_us) exit
                 repetitions(m) = 2*repetitions(m)
             end do
         end do
         with_field = 0.0_wp
+        with_heat = 0.0_wp
         do round = 1, rounds
             do m = 1, size(tangential_methods)
-                forces(round, m) = time_of(m, .false.)
-                if (tangential_methods(m)%gives_elements) with_field(round, m) = time_of(m, .true.)
+                forces(round, m) = time_of(m, .false., .false.)
+                if (.not. tangential_methods(m)%gives_elements) cycle
+                with_field(round, m) = time_of(m, .true., .false.)
+                with_heat(round, m) = time_of(m, .true., .true.)
             end do
         end do
         do m = 1, size(tangential_methods)
             times%forces(:, m) = spread_of(forces(:, m))
             times%field(m) = median(with_field(:, m))
+            times%heat(m) = median(with_heat(:, m))
         end do
 
     contains
 
-        real(wp) function time_of(method, wants_field) result(us)
+        real(wp) function time_of(method, wants_field, wants_heat) result(us)
             integer, intent(in) :: method
-            logical, intent(in) :: wants_field
+            logical, intent(in) :: wants_field, wants_heat
 
             real(wp) :: from
             integer :: i
@@ -127,6 +133,7 @@ contains
             contact%methods%tangential = tangential_methods(method)%number
             from = cpu_microseconds()
             contact%asked%field = wants_field
+            contact%asked%temperatures = wants_heat
             do i = 1, repetitions(method)
                 call solve_contact_forces(workspace, contact, result, status)
             end do
@@ -154,6 +161,7 @@ contains
             call put_cell(writer, times%field(m), is_known=tangential_methods(m)%gives_elements)
             call put_cells(writer, machine_words())
             call put_cells(writer, times%forces(:, m))
+            call put_cell(writer, times%heat(m), is_known=tangential_methods(m)%gives_elements)
             call end_row(writer)
         end do
     end subroutine put_times

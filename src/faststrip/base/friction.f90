@@ -19,6 +19,9 @@
 !>   2013) this is k0; there the factor falls further with the slip area, here it does not.
 !> - **Tread and flange**: mu of the contact angle, see `friction_at_angle`.
 !> - **Across the rail**: mu at places, each strip its own, see `faststrip_base_friction_table`.
+!> - **Hot friction**: with the temperature T of the surfaces there, along with the above, mu is
+!>   multiplied by 1 up to one temperature, by `hot_share` from another one on, linearly between
+!>   both: CONTACT's law L = 6 where it falls.
 !>
 !> A coefficient that falls with slip damps negatively: several states of slip may satisfy the law.
 !> All methods give the one that is reached from adhesion: particles enter with the static
@@ -28,12 +31,14 @@ module faststrip_base_friction
     use faststrip_base_friction_table, only: friction_table_t, check_friction_table
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t
+    use faststrip_base_thermal, only: heating_t
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, count_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range
     implicit none
     private
 
     public :: friction_t, check_friction, falls, falling_share, friction_at_angle, softened
+    public :: falls_when_hot, hot_share
     public :: friction_constant, friction_linear, friction_rational, friction_exponential
     public :: friction_kind, friction_kind_names, largest_speed
 
@@ -68,6 +73,10 @@ module faststrip_base_friction
         real(wp) :: tread_angle = 0.0_wp        !! contact angle up to which the tread's mu counts
         real(wp) :: flange_angle = 0.0_wp       !! and from which the flange's, rad
         type(friction_table_t) :: table         !! static coefficient at places, in place of mu
+        real(wp) :: hot_share = 1.0_wp          !! hot over cold value, 1e-6 to 1
+        real(wp) :: cold_temperature = 0.0_wp   !! temperature up to which the cold value counts
+        real(wp) :: hot_temperature = 0.0_wp    !! and from which the hot one, C
+        type(heating_t) :: heat                 !! of the bodies, where that counts
     end type friction_t
 
 contains
@@ -85,7 +94,9 @@ contains
         else if (.not. all(ieee_is_finite([friction%kinetic_share, friction%half_slip_speed, &
                                            friction%speed, friction%slope_factor, &
                                            friction%flange_share, friction%tread_angle, &
-                                           friction%flange_angle]))) then
+                                           friction%flange_angle, friction%hot_share, &
+                                           friction%cold_temperature, &
+                                           friction%hot_temperature]))) then
             call set_status(status, st_not_finite, 'a number of the friction is not finite')
         else if (friction%kinetic_share < least_share .or. friction%kinetic_share > 1.0_wp) then
             call set_status(status, st_bad_argument, 'kinetic friction over static friction ' // &
@@ -114,6 +125,15 @@ contains
                  (max(friction%half_slip_speed, friction%speed) > largest_speed .or. &
                   min(friction%half_slip_speed, friction%speed) < 1.0_wp/largest_speed)) then
             call set_status(status, st_out_of_range, 'a speed is beyond 1e-12 to 1e12 mm/s')
+        else if (friction%hot_share < least_share .or. friction%hot_share > 1.0_wp) then
+            call set_status(status, st_bad_argument, 'hot friction over cold friction must be ' // &
+                            '1e-6 to 1, got ' // number_text(friction%hot_share))
+        else if (falls_when_hot(friction) .and. &
+                 friction%hot_temperature <= friction%cold_temperature) then
+            call set_status(status, st_bad_argument, 'the temperature of hot friction must be ' // &
+                            'above that of cold friction, got ' // &
+                            trim(number_text(friction%hot_temperature)) // ' and ' // &
+                            trim(number_text(friction%cold_temperature)) // ' C')
         else if (friction%table%n /= 0 .and. friction%flange_share /= 1.0_wp) then
             call set_status(status, st_bad_argument, 'friction of the flange must not be given ' &
                             // 'with a table of friction')
@@ -134,12 +154,44 @@ contains
         end do
     end function friction_kind
 
-    !> Does friction fall with slip speed?
+    !> Does friction fall, with slip speed or temperature?
     elemental logical function falls(friction)
         type(friction_t), intent(in) :: friction !! checked
 
-        falls = friction%kind /= friction_constant .and. friction%kinetic_share < 1.0_wp
+        falls = falls_with_slip(friction) .or. falls_when_hot(friction)
     end function falls
+
+    elemental logical function falls_with_slip(friction) result(falls)
+        type(friction_t), intent(in) :: friction
+
+        falls = friction%kind /= friction_constant .and. friction%kinetic_share < 1.0_wp
+    end function falls_with_slip
+
+    !> Does friction fall with temperature?
+    elemental logical function falls_when_hot(friction) result(falls)
+        type(friction_t), intent(in) :: friction !! checked
+
+        falls = friction%hot_share < 1.0_wp
+    end function falls_when_hot
+
+    !> The share of `mu` that is left at the temperature T which the friction itself makes, a root
+    !> of `T = before + gain share(T)`: the only one, as share does not rise. In closed form, as
+    !> share is linear between two temperatures.
+    elemental real(wp) function hot_share(friction, before, gain) result(share)
+        type(friction_t), intent(in) :: friction !! checked
+        real(wp), intent(in) :: before           !! temperature without the heat, C
+        real(wp), intent(in) :: gain             !! what the heat adds at the cold value, >= 0, K
+
+        real(wp) :: slope
+
+        share = 1.0_wp
+        if (.not. falls_when_hot(friction)) return
+        slope = (1.0_wp - friction%hot_share)/(friction%hot_temperature &
+                                               - friction%cold_temperature)
+        ! share = 1 - slope (before + gain share - cold), between its ends.
+        share = (1.0_wp - slope*(before - friction%cold_temperature))/(1.0_wp + slope*gain)
+        share = min(max(share, friction%hot_share), 1.0_wp)
+    end function hot_share
 
     !> The share of `mu` that is left at a slip.
     elemental real(wp) function falling_share(friction, slip) result(share)
@@ -149,7 +201,7 @@ contains
         real(wp) :: t
 
         share = 1.0_wp
-        if (.not. falls(friction)) return
+        if (.not. falls_with_slip(friction)) return
         t = slip*(friction%speed/friction%half_slip_speed)
         select case (friction%kind)
         case (friction_linear)

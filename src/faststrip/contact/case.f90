@@ -5,6 +5,7 @@ module faststrip_contact_case
     use faststrip_base_material, only: material_t
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t
+    use faststrip_base_thermal, only: thermal_t
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_limitations, only: default_resolution
     use faststrip_normal_strips, only: usual_strip_tolerance
@@ -15,7 +16,7 @@ module faststrip_contact_case
     implicit none
     private
 
-    public :: contact_case_t, contact_terms_t, asked_t, given_forces_t
+    public :: contact_case_t, contact_terms_t, asked_t, given_forces_t, wants_elements
 
     !> What a solution shall hold besides its figures.
     type :: asked_t
@@ -24,6 +25,7 @@ module faststrip_contact_case
         logical :: strip_forces = .false. !! sums over each strip, in the workspace's
                                           !! `strip_forces`; only the march along strips has them
         logical :: times = .false.        !! time of either problem, in the result's `times`
+        logical :: temperatures = .false. !! of both surfaces, in the result's `flash` and the field
     end type asked_t
 
     !> Forces that a contact has to carry, in place of creepages, which are found.
@@ -42,6 +44,7 @@ module faststrip_contact_case
         type(friction_t) :: friction       !! how it falls with slip, factor of the initial slope
         type(creepage_t) :: creepage       !! about y = 0
         type(given_forces_t) :: given      !! forces in place of creepages
+        type(thermal_t) :: thermal         !! how the bodies take up heat, how warm they are
         type(contact_methods_t) :: methods !! methods and resolutions
         type(wanted_t) :: wanted           !! of normal method auto: target, tolerance, budget
         type(asked_t) :: asked             !! what the solution shall hold besides its figures
@@ -69,4 +72,13 @@ module faststrip_contact_case
     type, extends(contact_terms_t) :: contact_case_t
         type(gap_t) :: gap !! undeformed gap; without it that of `set_contact_gap`
     end type contact_case_t
+
+contains
+
+    !> Does a solution need elements?
+    pure logical function wants_elements(asked)
+        type(asked_t), intent(in) :: asked !! of a case
+
+        wants_elements = asked%field .or. asked%temperatures
+    end function wants_elements
 end module faststrip_contact_case

@@ -48,6 +48,8 @@ contains
         type(contact_case_t) :: slower
 
         slower%contact_terms_t = case%contact_terms_t
+        ! As much heat of less slip at more speed: the effusivity goes with the root of share.
+        slower%thermal%conductivity = case%thermal%conductivity*share
         slower%creepage = creepage
         workspace%friction%speed = case%friction%speed/share
         call method%solve(workspace, slower, result, status)

@@ -32,7 +32,9 @@ module faststrip_contact_figures
                                   figure_t_gamma = 27, figure_t_gamma_spin = 28, &
                                   figure_t_gamma_per_area = 29, figure_fatigue_index = 30, &
                                   figure_wear_mass = 31, figure_wear_volume = 32, &
-                                  figure_est_err_cksi = 33, figure_est_err_ceta = 34
+                                  figure_est_err_cksi = 33, figure_est_err_ceta = 34, &
+                                  figure_flash_temperature = 35, figure_temperature_max = 36, &
+                                  figure_temperature_x = 37, figure_temperature_y = 38
 
     !> All of them.
     type(figure_t), parameter :: figures(*) = [ &
@@ -93,7 +95,15 @@ module faststrip_contact_figures
         figure_t('est_err_cksi', 'est_err_cksi', needs='force errors', &
                  meaning='estimated error of cksi, 0 where it is given'), &
         figure_t('est_err_ceta', 'est_err_ceta', needs='force errors', &
-                 meaning='estimated error of ceta, 0 where it is given')]
+                 meaning='estimated error of ceta, 0 where it is given'), &
+        figure_t('flash_temperature', 'flash_temperature_K', needs='temperatures', &
+                 meaning='largest rise by the heat of friction'), &
+        figure_t('temperature_max', 'temperature_max_C', needs='temperatures', &
+                 meaning='largest temperature of the surfaces in contact'), &
+        figure_t('temperature_x', 'temperature_x_mm', needs='temperatures', &
+                 meaning='x of the largest temperature'), &
+        figure_t('temperature_y', 'temperature_y_mm', needs='temperatures', &
+                 meaning='y of the largest temperature')]
 
     !> How many there are.
     integer, parameter :: n_figures = size(figures)

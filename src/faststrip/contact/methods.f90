@@ -31,6 +31,7 @@ module faststrip_contact_methods
         logical :: gives_elements = .true.            !! tractions, or forces only?
         logical :: gives_stick = .true.               !! how much of the contact sticks?
         logical :: takes_falling = .false.            !! friction that falls with slip?
+        logical :: takes_hot = .false.                !! friction that falls with temperature?
     end type method_t
 
     ! Numbers of the methods, from the tables below; written by tools/generate/methods.py.
@@ -113,17 +114,17 @@ module faststrip_contact_methods
 
     !> The tangential methods, in the order that people see.
     type(method_t), parameter :: tangential_table(*) = [ &
-        method_t(1, 'faststrip', needs='strips', takes_falling=.true., &
+        method_t(1, 'faststrip', needs='strips', takes_falling=.true., takes_hot=.true., &
                  help='marching in the strips: the best fast one'), &
-        method_t(11, 'faststrip-plain', needs='strips', takes_falling=.true., &
+        method_t(11, 'faststrip-plain', needs='strips', takes_falling=.true., takes_hot=.true., &
                  help='FASTSTRIP without its correction'), &
         method_t(3, 'faststrip-paper', needs='strips', help='TFASTSTRIP as printed'), &
         method_t(4, 'faststrip-corrected', needs='strips', help='TFASTSTRIP as corrected'), &
-        method_t(2, 'fastsim', needs='ellipses', takes_falling=.true., &
+        method_t(2, 'fastsim', needs='ellipses', takes_falling=.true., takes_hot=.true., &
                  help='Kalker''s FASTSIM on the patches'' ellipses'), &
-        method_t(5, 'fastsim-elliptic', needs='ellipses', takes_falling=.true., &
+        method_t(5, 'fastsim-elliptic', needs='ellipses', takes_falling=.true., takes_hot=.true., &
                  help='FASTSIM with the elliptic traction bound'), &
-        method_t(6, 'fastsim-weighted', needs='ellipses', takes_falling=.true., &
+        method_t(6, 'fastsim-weighted', needs='ellipses', takes_falling=.true., takes_hot=.true., &
                  help='FASTSIM with a single flexibility'), &
         method_t(7, 'linear', needs='ellipses', gives_elements=.false., &
                  help='Kalker''s linear theory'), &
@@ -133,7 +134,7 @@ module faststrip_contact_methods
                  help='Polach'), &
         method_t(10, 'tang', needs='FFTW', in_core=.false., takes_falling=.true., &
                  help='TANG, Kalker''s variational method: the reference'), &
-        method_t(0, 'none', takes_falling=.true., help='no forces')]
+        method_t(0, 'none', takes_falling=.true., takes_hot=.true., help='no forces')]
 
     !> Most strips per patch: as many as points along one.
     integer, parameter :: most_strips = most_points

@@ -1,18 +1,20 @@
 !> The parts of a solution, in their order: check, gap, pressures, their errors, forces, their
 !> errors. `solve_contact` and the search of auto are made of them, and nothing else is.
 module faststrip_contact_parts
-    use faststrip_base_friction, only: check_friction, falls
+    use faststrip_base_friction, only: check_friction, falls, falls_when_hot, largest_speed
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: check_material
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
-                                     join_limitations, st_bad_argument, st_workspace_too_small
+                                     join_limitations, number_text, st_bad_argument, &
+                                     st_workspace_too_small
+    use faststrip_base_thermal, only: check_thermal
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: set_gap_curve
     use faststrip_geometry_gap_smoothing, only: smooth_gap
     use faststrip_normal_limitations, only: check_resolution
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_force_errors, only: force_errors_t
-    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_case, only: contact_case_t, wants_elements
     use faststrip_contact_clock, only: lap_t, start_lap, add_lap
     use faststrip_contact_cut, only: solve_motion
     use faststrip_contact_given_forces, only: check_given_forces, solve_given_forces, &
@@ -95,7 +97,7 @@ contains
         class(tangential_method_t), pointer, intent(out) :: tangential !! null with an error
         type(status_t), intent(out) :: status
             !! those of `check_methods`, `check_resolution`, `check_material`,
-            !! `check_given_forces`
+            !! `check_given_forces`, `check_heat`
 
         call check_methods(workspace, case%methods, normal, tangential, status)
         if (.not. is_error(status)) &
@@ -105,6 +107,8 @@ contains
         if (.not. is_error(status)) call check_material(case%material, status)
         if (.not. is_error(status) .and. any(case%given%is_given)) &
             call check_given_forces(case%given, case%creepage, tangential%about, status)
+        if (case%asked%temperatures .and. .not. is_error(status)) &
+            call check_heat(case, tangential%about, status)
     end subroutine check_contact
 
     !> Refuse friction that is none, and friction that falls with slip where the method cannot do.
@@ -119,7 +123,33 @@ contains
             call set_status(status, st_bad_argument, trim(about%name) // &
                             ' takes no friction that falls with slip; faststrip, fastsim and ' // &
                             'tang do')
+        if (falls_when_hot(case%friction) .and. .not. about%takes_hot) &
+            call set_status(status, st_bad_argument, trim(about%name) // &
+                            ' takes no friction that falls with temperature; faststrip and ' // &
+                            'fastsim do')
+        if (is_error(status)) return
+        if (case%asked%temperatures .or. falls_when_hot(case%friction)) &
+            call check_heat(case, about, status)
     end subroutine check_contact_friction
+
+    !> Refuse bodies, speeds and methods without temperatures.
+    pure subroutine check_heat(case, about, status)
+        type(contact_case_t), intent(in) :: case !! asks for temperatures, or friction does
+        type(method_t), intent(in) :: about      !! the tangential method
+        type(status_t), intent(inout) :: status  !! those of `check_thermal`; `st_bad_argument`
+
+        if (case%asked%temperatures .and. &
+            (about%number == tangential_none .or. .not. about%gives_elements)) then
+            call set_status(status, st_bad_argument, 'temperatures need tractions and slip ' // &
+                            'element by element, which ' // trim(about%name) // ' does not give')
+        else if (.not. (case%friction%speed >= 1.0_wp/largest_speed &
+                        .and. case%friction%speed <= largest_speed)) then
+            call set_status(status, st_bad_argument, 'temperatures need a rolling speed of ' // &
+                            '1e-12 to 1e12 mm/s, got ' // number_text(case%friction%speed))
+        else
+            call check_thermal(case%thermal, status)
+        end if
+    end subroutine check_heat
 
     !> Put the case's gap into the workspace, smoothed if that is asked for; without one that of
     !> `set_contact_gap` stays.
@@ -176,6 +206,7 @@ contains
         result%has_forces = .false.
         result%knows_stick = .false.
         result%wear = wear_figures_t()
+        result%knows_temperatures = .false.
         result%tangential = tangential_result_t()
         result%force_errors = force_errors_t()
         result%creepage_errors = 0.0_wp
@@ -235,7 +266,7 @@ contains
         if (is_error(status)) return
         if (workspace%solved_by == 0) then
             call set_status(status, st_bad_argument, 'no normal solution in the workspace')
-        else if (case%asked%field .and. .not. about%gives_elements) then
+        else if (wants_elements(case%asked) .and. .not. about%gives_elements) then
             call refuse_elements(about, status)
         end if
     end subroutine check_forces

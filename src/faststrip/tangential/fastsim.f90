@@ -36,6 +36,8 @@
 !>   On a bedding of springs a coefficient that is given by all of the slip has no solution that
 !>   grids agree on (CONTACT has a friction memory for that); this one needs no iteration, is unique
 !>   and converges. Particles enter with the static value; one that sticks again keeps what it has.
+!>   A coefficient that falls with temperature is that of the heat of the elements ahead in the row
+!>   and its own, under this slip (`hot_share`).
 module faststrip_tangential_fastsim
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
@@ -46,9 +48,11 @@ module faststrip_tangential_fastsim
     use faststrip_base_material, only: material_t, check_material, combined_shear_modulus, &
                                        combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_friction, only: friction_t, check_friction, falls, falling_share
+    use faststrip_base_friction, only: friction_t, check_friction, falls, falls_when_hot, &
+                                       falling_share, hot_share
     use faststrip_base_friction_table, only: mean_mu_between
     use faststrip_normal_simple_hertz, only: hertz_t
+    use faststrip_tangential_heat_sources, only: weight, rise_ahead, most_along
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_motion, only: check_motion, check_ellipse
@@ -71,8 +75,8 @@ module faststrip_tangential_fastsim
         logical :: elliptic_bound = .false.     !! or the parabolic one
         logical :: single_flexibility = .false. !! or three
         type(friction_t) :: friction
-            !! how the bound falls with slip, and a table over y in place of mu, which is then its
-            !! mean; other parts do not count here
+            !! how the bound falls with slip and temperature, and a table over y in place of mu,
+            !! which is then its mean; other parts do not count here
     end type fastsim_variant_t
 
     !> Areas of the elements gone through so far.
@@ -112,7 +116,7 @@ contains
 
         call check_input(mu, creepage, nx, ny, 1, status, field)
         if (is_error(status)) return
-        if (present(variant)) call check_friction(variant%friction, status)
+        call check_variant(nx, status, variant)
         if (is_error(status)) return
         call check_material(material, status)
         if (is_error(status)) return
@@ -207,7 +211,7 @@ contains
         if (is_error(status)) return
         call check_input(mu, creepage, nx, ny, strips%n_patches, status, field)
         if (is_error(status)) return
-        if (present(variant)) call check_friction(variant%friction, status)
+        call check_variant(nx, status, variant)
         if (is_error(status)) return
         call check_material(material, status)
         if (is_error(status)) return
@@ -248,6 +252,19 @@ contains
         if (present(field)) call empty_field(field, nx*ny*ellipses, status)
     end subroutine check_input
 
+    !> Refuse friction that is none, and rows that are too long for temperatures.
+    pure subroutine check_variant(nx, status, variant)
+        integer, intent(in) :: nx             !! elements along
+        type(status_t), intent(inout) :: status !! those of `check_friction`; `st_out_of_range`
+        type(fastsim_variant_t), intent(in), optional :: variant
+
+        if (.not. present(variant)) return
+        call check_friction(variant%friction, status)
+        if (is_error(status) .or. .not. falls_when_hot(variant%friction)) return
+        if (nx > most_along) call set_status(status, st_out_of_range, 'friction that falls ' // &
+            'with temperature takes at most 5000 elements along, got ' // count_text(nx))
+    end subroutine check_variant
+
     pure type(fastsim_variant_t) function chosen(variant)
         type(fastsim_variant_t), intent(in), optional :: variant
 
@@ -270,9 +287,9 @@ contains
 
         real(wp) :: a, b, y0, l1, l2, l3, peak_bound, pmax, width, y, row, h, x, t, bound
         real(wp) :: size_squared, step, cksi, slope_x, slope_y, px, py, sx, sy, cell, place
-        real(wp) :: ahead_x, ahead_y, left, fall, row_bound
+        real(wp) :: ahead_x, ahead_y, left, fall, gain, heat(most_along), row_bound
         integer :: i, j, state
-        logical :: is_falling, varies
+        logical :: is_falling, is_hot, varies
 
         a = ellipse%a
         b = ellipse%b
@@ -292,6 +309,7 @@ contains
         peak_bound = mu*ellipse%load/(a*width*grid_sum(nx, ny, variant%elliptic_bound))
         is_falling = falls(variant%friction)
         varies = variant%friction%table%n > 0 .and. mu > 0.0_wp
+        is_hot = falls_when_hot(variant%friction)
         do i = 1, ny
             t = real(2*i - 1 - ny, wp)/ny
             y = b*t
@@ -305,6 +323,7 @@ contains
             row_bound = peak_bound
             if (varies) row_bound = peak_bound/mu*mean_mu_between( &
                 variant%friction%table, mu, y0 + y - 0.5_wp*width, y0 + y + 0.5_wp*width)
+            gain = variant%friction%heat%gain*sqrt(h)
             do j = 1, nx
                 x = row*real(nx - 2*j + 1, wp)/nx
                 ! Half a step from the edge to the middle of the first element.
@@ -330,6 +349,10 @@ contains
                     if (is_falling) then
                         fall = falling_share(variant%friction, hypot(l1*(px - ahead_x), &
                                                                      l2*(py - ahead_y))/step)/left
+                        if (is_hot) fall = fall*hot_share(variant%friction, &
+                            variant%friction%heat%shared + gain*rise_ahead(heat(:j - 1)), &
+                            gain*weight(0)*fall*max((px*l1*(ahead_x - px) &
+                                                     + py*l2*(ahead_y - py))/step, 0.0_wp))
                         left = left*fall
                         px = px*fall
                         py = py*fall
@@ -337,6 +360,7 @@ contains
                     sx = l1*(px - ahead_x)/step
                     sy = l2*(py - ahead_y)/step
                 end if
+                if (is_hot) heat(j) = max(-(px*sx + py*sy), 0.0_wp)
                 areas%covered = areas%covered + cell
                 result%fx = result%fx + cell*px
                 result%fy = result%fy + cell*py

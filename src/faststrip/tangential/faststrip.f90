@@ -61,6 +61,9 @@
 !>   is iterated and there is one solution, reached from adhesion. What was tuned or fitted for
 !>   constant friction (S2, S5, S6, S9, S10) takes its mean where the patch slides for the
 !>   coefficient: a first march finds it. What patches do to each other (S11) takes the static one.
+!>   Where it falls with temperature, that of an element follows from the heat of the elements ahead
+!>   of it and its own (`faststrip_tangential_heat_sources`), of which it is the root in closed form
+!>   (`hot_share`).
 !> - **S13** **Friction across the rail** (`faststrip_base_friction_table`): each strip marches and
 !>   saturates with the mean coefficient over its width. What was tuned or fitted for one (S2, S5,
 !>   S6, S9 to S11) takes the mean of the patch by load.
@@ -150,9 +153,9 @@ contains
             !! filled when present; needs capacity for n strips
         logical, intent(in), optional :: with_fit !! corrected (S10)? default true
         type(friction_t), intent(in), optional :: friction
-            !! how mu falls with slip (S12), and a table over y in place of mu, which is then its
-            !! mean (S13); of its other parts only the factor of the initial slope, which the
-            !! material has already, counts (S14)
+            !! how mu falls with slip and temperature (S12), and a table over y in place of mu, which
+            !! is then its mean (S13); of its other parts only the factor of the initial slope,
+            !! which the material has already, counts (S14)
 
         type(patch_rolling_t) :: rolling
         type(march_sums_t) :: sums

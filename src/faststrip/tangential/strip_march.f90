@@ -5,9 +5,10 @@ module faststrip_tangential_strip_march
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_limits, only: nothing
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_friction, only: friction_t, falls, falling_share
+    use faststrip_base_friction, only: friction_t, falls, falls_when_hot, falling_share, hot_share
     use faststrip_base_friction_table, only: mean_mu_between
     use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
+    use faststrip_tangential_heat_sources, only: rise_by_steps, own_weight
     use faststrip_tangential_patch_law, only: patch_law_t
     use faststrip_tangential_pressure_slip, only: find_pressure_slip, node_weights, bed_factor, &
                                                   n_nodes
@@ -25,7 +26,7 @@ module faststrip_tangential_strip_march
     !> What all strips of a contact share.
     type :: rolling_t
         real(wp) :: mu = 0.0_wp      !! coefficient of friction, static; a mean, if it varies
-        type(friction_t) :: friction !! how it falls with slip; its table over y
+        type(friction_t) :: friction !! how it falls with slip and temperature; its table over y
         type(creepage_t) :: creepage !! about the reference point
         integer :: points = 0        !! along each strip, at most `most_points`
         real(wp) :: pressure_slip = 0.0_wp !! by unit pressure, of dissimilar materials, 1/MPa
@@ -46,6 +47,10 @@ module faststrip_tangential_strip_march
     integer, parameter :: lane_step = 2
     ! Strips marched side by side: a patch of the usual ones at once.
     integer, parameter :: most_lanes = usual_strips + modulo(-usual_strips, lane_step)
+
+    ! Strips marched side by side where friction falls: what heat they have had stands on the stack.
+    ! Tuned [strips]. Origin: capacity: half of the stack of a call.
+    integer, parameter :: falling_lanes = 4
 
     ! Added to what is divided by where it may be nothing; changes no digit.
     real(wp), parameter :: least = tiny(1.0_wp)
@@ -85,6 +90,7 @@ module faststrip_tangential_strip_march
         real(wp), dimension(most_lanes) :: static_bound   !! mu p0, MPa
         real(wp), dimension(most_lanes) :: left           !! of the static coefficient
         real(wp), dimension(most_lanes) :: bound          !! over mu p0, sum over the elements
+        real(wp), dimension(most_points, falling_lanes) :: heat !! of the steps, N/mm^2
     end type fall_t
 
 contains
@@ -102,7 +108,7 @@ contains
         type(block_t) :: block
         type(pressed_t) :: pressed
         real(wp) :: bound(most_points), t, thickness, off_centre
-        integer :: i, points
+        integer :: i, points, lanes
 
         if (law%weight <= 0.0_wp) return
         points = rolling%points
@@ -119,8 +125,9 @@ contains
             off_centre = off_centre + t*(bound(i) - bound(points + 1 - i))
         end do
         off_centre = off_centre/(0.25_wp*pi*points)
-        do i = first, last, most_lanes
-            call fill_block(law, strips, i, min(i + most_lanes - 1, last), rolling, block)
+        lanes = merge(falling_lanes, most_lanes, falls_when_hot(rolling%friction))
+        do i = first, last, lanes
+            call fill_block(law, strips, i, min(i + lanes - 1, last), rolling, block)
             if (is_pressed(rolling)) call find_pressed(law, strips, rolling, block, pressed)
             if (falls(rolling%friction)) then
                 call march_falling(block, bound(:points), strips, rolling, pressed, sums, field)
@@ -191,7 +198,7 @@ contains
             ahead_y = block%py
             if (is_pressed(rolling)) call press(block, t + 0.5_wp*step, pressed)
             call advance(block, t, step, bound(i), rolling%creepage%cphi)
-            call follow_slip(block, rolling%friction, t, bound(i), fall, sums)
+            call follow_slip(block, rolling, i, bound(i), ahead_x, ahead_y, fall, sums)
             if (is_pressed(rolling)) call note_pressed(block, pressed)
             if (present(field)) call note_elements(block, strips, rolling%creepage, ahead_x, &
                                                    ahead_y, i, n, field)
@@ -202,22 +209,32 @@ contains
         end do
     end subroutine march_falling
 
-    !> Let the bound of an element fall to that of its slip, and what lies on it with it (S12).
-    pure subroutine follow_slip(block, friction, t, bound, fall, sums)
+    !> Let the bound of an element fall to that of its slip and temperature, and what lies on it
+    !> with it (S12).
+    pure subroutine follow_slip(block, rolling, i, bound, ahead_x, ahead_y, fall, sums)
         type(block_t), intent(inout) :: block
-        type(friction_t), intent(in) :: friction
-        real(wp), intent(in) :: t     !! place of the element over half-length
+        type(rolling_t), intent(in) :: rolling
+        integer, intent(in) :: i      !! element
         real(wp), intent(in) :: bound !! over mu p0
+        real(wp), intent(in) :: ahead_x(:), ahead_y(:) !! traction of the element ahead, MPa
         type(fall_t), intent(inout) :: fall
         type(march_sums_t), intent(inout) :: sums
 
-        real(wp) :: slip, part, static
+        real(wp) :: slip, share, part, static, t
+        logical :: is_hot
         integer :: k
 
+        t = real(rolling%points - 2*i + 1, wp)/rolling%points
+        is_hot = falls_when_hot(rolling%friction)
         do k = 1, block%lanes
+            if (is_hot) fall%heat(i, k) = 0.0_wp
             if (block%excess(k) > 0.0_wp) then
                 slip = block%f(k)*hypot(block%px(k), block%py(k))/block%step(k)
-                part = falling_share(friction, slip)/fall%left(k)
+                share = falling_share(rolling%friction, slip)
+                if (is_hot) share = share*hot_share_of(rolling, fall%heat(:i - 1, k), &
+                    2.0_wp*block%half_length(k)/rolling%points, &
+                    share/fall%left(k)*heat_of(block, k, ahead_x(k), ahead_y(k)))
+                part = share/fall%left(k)
                 fall%left(k) = part*fall%left(k)
                 block%peak_bound(k) = fall%left(k)*fall%static_bound(k)
                 block%inverse_peak_bound(k) = 1.0_wp/block%peak_bound(k)
@@ -228,6 +245,7 @@ contains
                 block%px(k) = part*block%px(k)
                 block%py(k) = part*block%py(k)
                 block%f(k) = block%f(k)/part
+                if (is_hot) fall%heat(i, k) = heat_of(block, k, ahead_x(k), ahead_y(k))
                 if (k <= block%n) then
                     static = block%cell(k)*fall%static_bound(k)*bound
                     sums%slid = sums%slid + fall%left(k)*static
@@ -237,6 +255,33 @@ contains
             fall%bound(k) = fall%bound(k) + fall%left(k)*bound
         end do
     end subroutine follow_slip
+
+    !> The share of the coefficient that is left of an element by its temperature.
+    pure real(wp) function hot_share_of(rolling, ahead, length, heat) result(share)
+        type(rolling_t), intent(in) :: rolling
+        real(wp), intent(in) :: ahead(:) ! heat of the steps before, N/mm^2
+        real(wp), intent(in) :: length   ! of an element, mm
+        real(wp), intent(in) :: heat     ! of this one, if it were cold
+
+        real(wp) :: gain
+
+        associate (friction => rolling%friction)
+            gain = friction%heat%gain*sqrt(length)
+            share = hot_share(friction, friction%heat%shared + gain*rise_by_steps(ahead), &
+                              gain*own_weight(size(ahead) + 1)*heat)
+        end associate
+    end function hot_share_of
+
+    !> Heat of the step to an element that slides, over its area, as `note_elements` has it, N/mm^2.
+    pure real(wp) function heat_of(block, k, ahead_x, ahead_y) result(heat)
+        type(block_t), intent(in) :: block
+        integer, intent(in) :: k                 ! lane
+        real(wp), intent(in) :: ahead_x, ahead_y ! traction of the element ahead, MPa
+
+        heat = 0.5_wp*block%f(k)*(block%px(k)*(block%px(k) + ahead_x) &
+                                  + block%py(k)*(block%py(k) + ahead_y))
+        heat = max(heat, 0.0_wp)/block%step(k)
+    end function heat_of
 
     !> Put element `i` of every strip of a block into the field.
     !>

@@ -44,6 +44,8 @@ module faststrip_tangential_types
         real(wp), allocatable :: sx(:)   !! slip (rail less wheel) over rolling speed along x, -
         real(wp), allocatable :: sy(:)   !! slip (rail less wheel) over rolling speed along y, -
         integer, allocatable :: state(:) !! `state_adhesion` or `state_slip`
+        real(wp), allocatable :: temperature(:) !! of both surfaces there, C; if `has_temperature`
+        logical :: has_temperature = .false.    !! was it asked for?
     end type tangential_field_t
 
     !> Sums over each strip; the caller owns it and its size (`reserve_strip_forces`). The first
@@ -108,11 +110,12 @@ contains
         if (allocated(field%x)) then
             if (size(field%x) == capacity) return
             deallocate (field%x, field%y, field%area, field%pn, field%px, field%py, field%sx, &
-                        field%sy, field%state)
+                        field%sy, field%state, field%temperature)
         end if
         allocate (field%x(capacity), field%y(capacity), field%area(capacity), &
                   field%pn(capacity), field%px(capacity), field%py(capacity), &
-                  field%sx(capacity), field%sy(capacity), source=0.0_wp)
+                  field%sx(capacity), field%sy(capacity), field%temperature(capacity), &
+                  source=0.0_wp)
         allocate (field%state(capacity), source=0)
     end subroutine reserve_field
 

@@ -49,9 +49,12 @@ contains
             field%sx(:n) = from%sx(:n)
             field%sy(:n) = from%sy(:n)
             field%state(:n) = from%state(:n)
+            field%temperature(:n) = from%temperature(:n)
+            field%has_temperature = from%has_temperature
             call mirror_elements(workspace%is_reversed, side == side_left, field%x(:n), &
                                  field%y(:n), field%area(:n), field%pn(:n), field%px(:n), &
                                  field%py(:n), field%sx(:n), field%sy(:n), field%state(:n))
+            if (side == side_left) call mirror_values(field%y(:n), field%temperature(:n))
         end associate
     end subroutine find_wheel_field
 
@@ -79,11 +82,7 @@ contains
         call turn_round(1, size(x))
         first = 1
         do while (first <= size(x))
-            last = first
-            do while (last < size(x))
-                if (abs(y(last + 1) - y(first)) > 0.0_wp) exit
-                last = last + 1
-            end do
+            last = row_end(y, first)
             call turn_round(first, last)
             first = last + 1
         end do
@@ -104,4 +103,32 @@ contains
             call reverse(state(i:j))
         end subroutine turn_round
     end subroutine mirror_elements
+
+    !> Values of elements that have been mirrored in y, in the same order.
+    subroutine mirror_values(y, values)
+        real(wp), intent(in) :: y(:)         ! as they are in the mirror
+        real(wp), intent(inout) :: values(:) ! of each
+
+        integer :: first, last
+
+        call reverse(values)
+        first = 1
+        do while (first <= size(y))
+            last = row_end(y, first)
+            call reverse(values(first:last))
+            first = last + 1
+        end do
+    end subroutine mirror_values
+
+    !> The last element of the row that begins with another one.
+    pure integer function row_end(y, first)
+        real(wp), intent(in) :: y(:)
+        integer, intent(in) :: first
+
+        row_end = first
+        do while (row_end < size(y))
+            if (abs(y(row_end + 1) - y(first)) > 0.0_wp) exit
+            row_end = row_end + 1
+        end do
+    end function row_end
 end module faststrip_wheelset_field

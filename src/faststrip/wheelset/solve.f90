@@ -10,7 +10,7 @@ module faststrip_wheelset_solve
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      join_limitations, number_text, st_bad_argument, &
                                      st_workspace_too_small, st_target_missed
-    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_case, only: contact_case_t, wants_elements
     use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
     use faststrip_geometry_gap, only: gap_t
@@ -178,7 +178,7 @@ contains
                     if (is_error(status)) return
                     call reserve_workspace(wheel%contact(i), model%case%methods, size(pair%y), &
                                            status)
-                    if (model%case%asked%field .and. .not. is_error(status)) &
+                    if (wants_elements(model%case%asked) .and. .not. is_error(status)) &
                         call reserve_contact_field(wheel%contact(i), model%case%methods, status)
                     if (is_error(status)) return
                 end do

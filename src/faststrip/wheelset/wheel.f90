@@ -472,6 +472,7 @@ contains
                     normal%y_min = -ends(2)
                     normal%y_max = -ends(1)
                 end associate
+                contact%figures%flash%y = -contact%figures%flash%y
             end associate
         end do
     end subroutine mirror_wheel
@@ -497,6 +498,7 @@ contains
                 contact%moment(2:3) = -contact%moment(2:3)
                 contact%figures%tangential%fx = -contact%figures%tangential%fx
                 contact%figures%tangential%mz = -contact%figures%tangential%mz
+                contact%figures%flash%x = -contact%figures%flash%x
             end associate
         end do
     end subroutine reverse_wheel

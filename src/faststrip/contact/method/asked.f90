@@ -1,7 +1,7 @@
 !> Where a tangential method puts what a case asks for besides the sums.
 module faststrip_contact_method_asked
     use faststrip_tangential_types, only: tangential_field_t, strip_forces_t
-    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_case, only: contact_case_t, wants_elements
     use faststrip_contact_method, only: workspace_t
     implicit none
     private
@@ -17,7 +17,7 @@ contains
         type(tangential_field_t), pointer :: field
 
         field => null()
-        if (case%asked%field) field => workspace%field
+        if (wants_elements(case%asked)) field => workspace%field
     end function asked_field
 
     !> The workspace's sums over strips, likewise.

@@ -10,6 +10,7 @@ module faststrip_contact_method_fastsim
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_method_asked, only: asked_field
+    use faststrip_contact_method_heat, only: heated_friction
     use faststrip_contact_method_march_errors, only: left_out_t, estimate_march
     use faststrip_contact_methods, only: tangential_table, tangential_fastsim, &
                                          tangential_fastsim_elliptic, tangential_fastsim_weighted
@@ -59,7 +60,7 @@ contains
 
         variant%elliptic_bound = self%elliptic_bound
         variant%single_flexibility = self%single_flexibility
-        variant%friction = workspace%friction
+        variant%friction = heated_friction(workspace, case)
         material = softened(case%material, workspace%friction)
         associate (nx => case%methods%fastsim_nx, ny => case%methods%fastsim_ny)
             if (workspace%is_ellipse) then

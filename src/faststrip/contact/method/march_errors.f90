@@ -2,7 +2,7 @@
 !> and what all of them leave out.
 module faststrip_contact_method_march_errors
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_friction, only: falls, softened
+    use faststrip_base_friction, only: friction_t, falls, falls_when_hot, softened
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t
     use faststrip_base_status, only: status_t, is_error, add_limitation, st_under_resolved
@@ -106,7 +106,7 @@ contains
         end associate
     end subroutine estimate_march
 
-    !> Name what methods of the core know nothing of: friction that falls with slip has no estimate,
+    !> Name what methods of the core know nothing of: friction that falls has no estimate,
     !> pressures of dissimilar materials do not count.
     pure subroutine name_left_out(workspace, left, case, status)
         type(workspace_t), intent(in) :: workspace !! with its friction
@@ -115,7 +115,7 @@ contains
         type(status_t), intent(inout) :: status    !! limitations so far; `st_under_resolved`
 
         if (falls(workspace%friction)) then
-            call name_falling_friction(status)
+            call name_falling_friction(workspace%friction, status)
         else if (left > case%force_limit) then
             call add_limitation(status, st_under_resolved, 'between dissimilar materials ' &
                                 // 'pressures cause slip that only tang takes into account in ' &
@@ -149,12 +149,14 @@ contains
                     2.0_wp*workspace%mu)/max(workspace%mu, tiny(error))
     end function left_out
 
-    !> Name that no error of forces is estimated where friction falls with slip: what the estimates
-    !> were calibrated on has constant friction.
-    pure subroutine name_falling_friction(status)
+    !> Name that no error of forces is estimated where friction falls: what the estimates were
+    !> calibrated on has constant friction.
+    pure subroutine name_falling_friction(friction, status)
+        type(friction_t), intent(in) :: friction !! falls
         type(status_t), intent(inout) :: status !! limitations so far; `st_under_resolved`
 
         call add_limitation(status, st_under_resolved, 'no error of the forces can be ' // &
-                            'estimated: friction falls with slip')
+                            'estimated: friction falls with ' // &
+                            trim(merge('temperature', 'slip       ', falls_when_hot(friction))))
     end subroutine name_falling_friction
 end module faststrip_contact_method_march_errors

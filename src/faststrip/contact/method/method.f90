@@ -12,12 +12,14 @@ module faststrip_contact_method
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
                                      st_bad_argument
+    use faststrip_base_thermal, only: heating_t
     use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_simple_hertz, only: hertz_t
     use faststrip_normal_strip, only: strip_workspace_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_force_errors, only: force_errors_t
+    use faststrip_tangential_heat_flash, only: flash_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t
     use faststrip_tangential_wear_law, only: wear_t
     use faststrip_contact_case, only: contact_case_t
@@ -75,6 +77,8 @@ module faststrip_contact_method
         logical :: forces_are_estimated = .false.
             !! is that known? Of FASTSTRIP and FASTSIM, where the normal errors are
         type(wear_figures_t) :: wear     !! if there are forces
+        type(flash_t) :: flash           !! temperatures of the surfaces
+        logical :: knows_temperatures = .false. !! are they known? If they were asked for
         real(wp) :: gap_change = 0.0_wp  !! rms change of the gap by smoothing, mm
         type(times_t) :: times           !! if the case asks for them
     end type contact_result_t
@@ -123,6 +127,7 @@ module faststrip_contact_method
             !! why there is no wear of the last contact in spite of a law; or ok
         type(strip_wear_t) :: strip_wear  !! of the last contact, if there is a law
         type(found_motion_t) :: found      !! of the last contact, if forces were given
+        type(heating_t) :: heat           !! of it, if its field has temperatures
         type(contact_methods_t) :: methods !! that the last contact was solved by
         type(auto_steps_t) :: steps        !! of the last contact, if by auto
         type(contact_strips_t) :: best_strips !! of the best step so far of auto

@@ -13,7 +13,7 @@ module faststrip_interop_c
                                           read_elements
     use faststrip_interop_c_solve, only: take_gap, solve_fields
     use faststrip_interop_c_structs, only: c_case_t, c_result_t, default_case, find_case, &
-                                           check_size, methods_of
+                                           check_size, methods_of, with_elements
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     use faststrip_interop_profile_points, only: gap_of_points, copy_gap, n_setup, n_contact
     use faststrip_geometry_gap, only: gap_t
@@ -352,7 +352,7 @@ contains
         number = 0
         call find_case(case, fields, status)
         if (is_error(status)) return
-        call new_handle(methods_of(fields), max_points, fields%with_elements /= 0, number, status)
+        call new_handle(methods_of(fields), max_points, with_elements(fields), number, status)
     end subroutine make_workspace
 
     !> The strips of a solution, into a caller's five arrays.

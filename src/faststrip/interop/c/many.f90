@@ -13,7 +13,8 @@ module faststrip_interop_c_many
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_interop_c, only: put_text
     use faststrip_interop_c_solve, only: take_gap, solve_fields
-    use faststrip_interop_c_structs, only: c_case_t, c_result_t, find_case, methods_of
+    use faststrip_interop_c_structs, only: c_case_t, c_result_t, find_case, methods_of, &
+                                           with_elements
     use faststrip_interop_handle, only: handle_t, new_handle, free_handle, find_handle
     use faststrip_interop_threads, only: mutex_t, lock_mutex, unlock_mutex, run_threads
     implicit none
@@ -172,7 +173,7 @@ contains
         nothing = c_null_ptr
         call c_f_pointer(shared, many)
         call new_handle(methods_of(many%cases(1)), many%max_points, &
-                        many%cases(1)%with_elements /= 0, number, status)
+                        with_elements(many%cases(1)), number, status)
         call lock_mutex(many%mutex)
         if (is_error(status)) then
             many%no_workspace = status

@@ -13,6 +13,7 @@ module faststrip_interop_c_structs
     use faststrip_base_friction, only: friction_t
     use faststrip_base_friction_table, only: friction_table_t, most_places
     use faststrip_base_material, only: material_t
+    use faststrip_base_thermal, only: thermal_t, of_wheel, of_rail
     use faststrip_contact_case, only: contact_case_t, given_forces_t
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_wanted, only: wanted_t, unknown_error
@@ -21,7 +22,8 @@ module faststrip_interop_c_structs
     private
 
     public :: c_case_t, c_result_t
-    public :: default_case, find_case, check_size, methods_of, fill_case, fill_result
+    public :: default_case, find_case, check_size, methods_of, with_elements, fill_case
+    public :: fill_result
 
     !> `faststrip_case` of the header.
     type, bind(c) :: c_case_t
@@ -42,6 +44,11 @@ module faststrip_interop_c_structs
         real(c_double) :: rail_y = 0
         integer(c_int) :: fx_is_given, fy_is_given
         real(c_double) :: given_fx, given_fy
+        real(c_double) :: hot_share, cold_temperature, hot_temperature
+        integer(c_int) :: with_temperatures
+        real(c_double) :: conductivity_wheel, conductivity_rail, heat_capacity_wheel, &
+                          heat_capacity_rail, density_wheel, density_rail, temperature_wheel, &
+                          temperature_rail
     end type c_case_t
 
     !> `faststrip_result` of the header; zeros unless there is one.
@@ -106,12 +113,26 @@ contains
             fields%flange_share = friction%flange_share
             fields%tread_angle = friction%tread_angle
             fields%flange_angle = friction%flange_angle
+            fields%hot_share = friction%hot_share
+            fields%cold_temperature = friction%cold_temperature
+            fields%hot_temperature = friction%hot_temperature
         end associate
         fields%contact_angle = 0
         fields%fx_is_given = 0
         fields%fy_is_given = 0
         fields%given_fx = 0
         fields%given_fy = 0
+        fields%with_temperatures = 0
+        associate (thermal => case%thermal)
+            fields%conductivity_wheel = thermal%conductivity(of_wheel)
+            fields%conductivity_rail = thermal%conductivity(of_rail)
+            fields%heat_capacity_wheel = thermal%heat_capacity(of_wheel)
+            fields%heat_capacity_rail = thermal%heat_capacity(of_rail)
+            fields%density_wheel = thermal%density(of_wheel)
+            fields%density_rail = thermal%density(of_rail)
+            fields%temperature_wheel = thermal%temperature(of_wheel)
+            fields%temperature_rail = thermal%temperature(of_rail)
+        end associate
     end function default_case
 
     !> A caller's case, if it is one.
@@ -165,6 +186,13 @@ contains
                                     fields%points_per_strip, fields%fastsim_nx, fields%fastsim_ny)
     end function methods_of
 
+    !> Does a case need elements?
+    pure logical function with_elements(fields)
+        type(c_case_t), intent(in) :: fields !! not yet checked
+
+        with_elements = fields%with_elements /= 0 .or. fields%with_temperatures /= 0
+    end function with_elements
+
     !> All of a case but its gap.
     subroutine fill_case(fields, case, contact_angle)
         type(c_case_t), intent(in) :: fields           !! as the caller has it
@@ -187,7 +215,13 @@ contains
                                budget_us=fields%budget_us)
         case%friction = friction_t(fields%friction, fields%kinetic_share, fields%half_slip_speed, &
                                    fields%speed, fields%slope_factor, fields%flange_share, &
-                                   fields%tread_angle, fields%flange_angle)
+                                   fields%tread_angle, fields%flange_angle, fields%hot_share, &
+                                   fields%cold_temperature, fields%hot_temperature)
+        case%asked%temperatures = fields%with_temperatures /= 0
+        case%thermal = thermal_t([fields%conductivity_wheel, fields%conductivity_rail], &
+                                 [fields%heat_capacity_wheel, fields%heat_capacity_rail], &
+                                 [fields%density_wheel, fields%density_rail], &
+                                 [fields%temperature_wheel, fields%temperature_rail])
         contact_angle = fields%contact_angle
         call fill_table(fields, case%friction%table)
         case%given = given_forces_t([fields%fx_is_given, fields%fy_is_given] /= 0, &

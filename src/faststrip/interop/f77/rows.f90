@@ -89,10 +89,12 @@ contains
     pure subroutine fill_friction(kind, fric, friction, contact_angle)
         integer(c_int), intent(in) :: kind           !! as the caller has it
         real(c_double), intent(in) :: fric(n_fric)   !! the same
-        type(friction_t), intent(out) :: friction    !! not yet checked
+        type(friction_t), intent(inout) :: friction  !! not yet checked; what is hot stays
         real(c_double), intent(out) :: contact_angle !! rad; of a contact alone
 
-        friction = friction_t(kind, fric(1), fric(2), fric(3), fric(4), fric(5), fric(6), fric(7))
+        friction = friction_t(kind, fric(1), fric(2), fric(3), fric(4), fric(5), fric(6), fric(7), &
+                              friction%hot_share, friction%cold_temperature, &
+                              friction%hot_temperature)
         contact_angle = fric(8)
     end subroutine fill_friction
 
