@@ -25,7 +25,8 @@ RESULT_COLUMNS = (
     "Mz_Nmm,friction_power_N,stick_fraction,normal_us,tangential_us,residual_inside,"
     "overlap_outside,est_err_penetration,est_err_pmax,est_err_area,est_err_Fx,est_err_Fy,"
     "est_err_Mz,gap_change_um,choice,strips_across,limitations,t_gamma_N,t_gamma_spin_N,"
-    "t_gamma_per_area_N_per_mm2,fatigue_index,wear_ug_per_m,wear_mm3_per_m"
+    "t_gamma_per_area_N_per_mm2,fatigue_index,wear_ug_per_m,wear_mm3_per_m,von_mises_max_MPa,"
+    "von_mises_x_mm,von_mises_y_mm,von_mises_z_mm,est_err_von_mises"
 ).split(",")
 
 # What does not change from run to run and is no status.

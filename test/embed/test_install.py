@@ -19,7 +19,7 @@ F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp f
                 " fsints fswdft fswnew fsrail fsptch fsdamp fswslv fswset fswstr fswelm fswstw"
                 " fswcpy fswfre fsderv fswdrv"
                 " fsfric fswear fsstwr fscfun fsconi fslopn fslfre fslinf fslook fslwin fslcon"
-                " fslwze fswlkp fslwhl fsrdpr fsdoub".split())
+                " fslwze fswlkp fslwhl fsrdpr fsdoub fsstrs fspeak".split())
 
 CORE = ROOT / "src" / "faststrip"
 

@@ -5,6 +5,7 @@ module faststrip_command_rows_result_csv
     use faststrip_contact_figures, only: figure_area, figure_est_err_area, figure_est_err_fx, &
                                          figure_est_err_fy, figure_est_err_mz, &
                                          figure_est_err_penetration, figure_est_err_pmax, &
+                                         figure_est_err_von_mises, &
                                          figure_fatigue_index, figure_friction_power, figure_fx, &
                                          figure_fy, figure_gap_change, figure_mz, &
                                          figure_n_patches, figure_normal_us, &
@@ -12,7 +13,9 @@ module faststrip_command_rows_result_csv
                                          figure_residual_inside, figure_stick_fraction, &
                                          figure_strips_across, figure_t_gamma, &
                                          figure_t_gamma_per_area, figure_t_gamma_spin, &
-                                         figure_tangential_us, figure_wear_mass, &
+                                         figure_tangential_us, figure_von_mises_max, &
+                                         figure_von_mises_x, figure_von_mises_y, &
+                                         figure_von_mises_z, figure_wear_mass, &
                                          figure_wear_volume, figure_x_max, figure_y_max, &
                                          figure_y_min, figures, n_figures
     use faststrip_contact_figure_values, only: find_figures
@@ -41,7 +44,8 @@ module faststrip_command_rows_result_csv
     !> Begins what is said where there is no wear in spite of a law.
     character(len=*), parameter :: no_wear = 'no wear: '
 
-    !> Figures in the order of their columns: of the pressures and forces, times, errors; of wear.
+    !> Figures in the order of their columns: of the pressures and forces, times, errors; of wear;
+    !> of stresses.
     integer, parameter :: main_figures(*) = [ &
         figure_penetration, figure_area, figure_pmax, figure_y_min, figure_y_max, figure_x_max, &
         figure_n_patches, figure_fx, figure_fy, figure_mz, figure_friction_power, &
@@ -53,6 +57,10 @@ module faststrip_command_rows_result_csv
         figure_t_gamma, figure_t_gamma_spin, figure_t_gamma_per_area, figure_fatigue_index, &
         figure_wear_mass, figure_wear_volume]
 
+    integer, parameter :: stress_figures(*) = [ &
+        figure_von_mises_max, figure_von_mises_x, figure_von_mises_y, figure_von_mises_z, &
+        figure_est_err_von_mises]
+
     !> Names of a strip's columns, in the order of `put_strip`.
     character(len=*), parameter :: strip_columns(*) = [character(len=26) :: &
         'patch', 'strip', 'y_left_mm', 'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', &
@@ -62,7 +70,7 @@ module faststrip_command_rows_result_csv
     !> Names of the columns, in the order of `put_result`.
     character(len=*), parameter :: result_columns(*) = [character(len=26) :: &
         'status', figures(main_figures)%column, 'choice', figures(figure_strips_across)%column, &
-        'limitations', figures(wear_figures)%column]
+        'limitations', figures(wear_figures)%column, figures(stress_figures)%column]
 
 contains
 
@@ -94,6 +102,7 @@ contains
         call put_figures(writer, [figure_strips_across], values, known)
         call put_cell(writer, trim(limitation_words(status%limitations)))
         call put_figures(writer, wear_figures, values, known)
+        call put_figures(writer, stress_figures, values, known)
     end subroutine put_result
 
     !> The cells of some figures; of what is not known they are empty.

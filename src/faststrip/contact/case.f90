@@ -10,12 +10,12 @@ module faststrip_contact_case
     use faststrip_normal_strips, only: usual_strip_tolerance
     use faststrip_normal_types, only: demand_t
     use faststrip_tangential_wear_law, only: wear_law_t
-    use faststrip_contact_methods, only: contact_methods_t
+    use faststrip_contact_methods, only: contact_methods_t, tangential_none
     use faststrip_contact_wanted, only: wanted_t
     implicit none
     private
 
-    public :: contact_case_t, asked_t
+    public :: contact_case_t, asked_t, keeps_elements
 
     !> What a solution shall hold besides its figures.
     type :: asked_t
@@ -24,6 +24,10 @@ module faststrip_contact_case
         logical :: strip_forces = .false. !! sums over each strip, in the workspace's
                                           !! `strip_forces`; only the march along strips has them
         logical :: times = .false.        !! time of either problem, in the result's `times`
+        logical :: subsurface = .false.   !! the largest von Mises stress of the rail, in the
+                                          !! result's `stress_peak`, and what stresses follow from,
+                                          !! in the workspace's `loads`; see
+                                          !! `reserve_contact_loads`
     end type asked_t
 
     !> One contact to be solved. What is prescribed, `by_load`, `load` or `penetration`, is its
@@ -57,4 +61,14 @@ module faststrip_contact_case
         real(wp) :: force_limit = default_resolution
             !! the same of the forces, over mu N, and of the moment, over mu N c
     end type contact_case_t
+
+contains
+
+    !> Shall the solution keep its elements? Stresses need them too, where there are tractions.
+    pure logical function keeps_elements(case)
+        type(contact_case_t), intent(in) :: case !! as the caller set it
+
+        keeps_elements = case%asked%field .or. &
+                         case%asked%subsurface .and. case%methods%tangential /= tangential_none
+    end function keeps_elements
 end module faststrip_contact_case

@@ -31,7 +31,10 @@ module faststrip_contact_figures
                                   figure_normal_us = 25, figure_tangential_us = 26, &
                                   figure_t_gamma = 27, figure_t_gamma_spin = 28, &
                                   figure_t_gamma_per_area = 29, figure_fatigue_index = 30, &
-                                  figure_wear_mass = 31, figure_wear_volume = 32
+                                  figure_wear_mass = 31, figure_wear_volume = 32, &
+                                  figure_von_mises_max = 33, figure_von_mises_x = 34, &
+                                  figure_von_mises_y = 35, figure_von_mises_z = 36, &
+                                  figure_est_err_von_mises = 37
 
     !> All of them.
     type(figure_t), parameter :: figures(*) = [ &
@@ -88,7 +91,15 @@ module faststrip_contact_figures
         figure_t('mass', 'wear_ug_per_m', needs='wear law', &
                  meaning='wear, mass per distance rolled'), &
         figure_t('volume', 'wear_mm3_per_m', needs='wear law', &
-                 meaning='wear, volume per distance rolled')]
+                 meaning='wear, volume per distance rolled'), &
+        figure_t('von_mises_max', 'von_mises_max_MPa', needs='subsurface', &
+                 meaning='largest von Mises stress of the rail'), &
+        figure_t('von_mises_x', 'von_mises_x_mm', needs='subsurface', meaning='where it is, x'), &
+        figure_t('von_mises_y', 'von_mises_y_mm', needs='subsurface', meaning='where it is, y'), &
+        figure_t('von_mises_z', 'von_mises_z_mm', needs='subsurface', &
+                 meaning='where it is, depth'), &
+        figure_t('est_err_von_mises', 'est_err_von_mises', needs='subsurface', &
+                 meaning='estimated relative error of it')]
 
     !> How many there are.
     integer, parameter :: n_figures = size(figures)

@@ -14,7 +14,7 @@ module faststrip_contact_parts
     use faststrip_tangential_motion, only: cut_creepage
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_force_errors, only: force_errors_t
-    use faststrip_contact_case, only: contact_case_t
+    use faststrip_contact_case, only: contact_case_t, keeps_elements
     use faststrip_contact_clock, only: lap_t, start_lap, add_lap
     use faststrip_contact_cut, only: solve_cut
     use faststrip_contact_method, only: contact_result_t, workspace_t, wear_figures_t, &
@@ -226,7 +226,7 @@ contains
         if (is_error(status)) return
         if (workspace%solved_by == 0) then
             call set_status(status, st_bad_argument, 'no normal solution in the workspace')
-        else if (case%asked%field .and. .not. about%gives_elements) then
+        else if (keeps_elements(case) .and. .not. about%gives_elements) then
             call refuse_elements(about, status)
         end if
     end subroutine check_forces

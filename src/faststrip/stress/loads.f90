@@ -1,14 +1,15 @@
 !> Loads on the surface of a half-space, rectangle by rectangle, and the stresses below them.
 module faststrip_stress_loads
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: half_digits
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
-                                     st_bad_argument
+                                     number_text, st_bad_argument
     use faststrip_stress_rectangle, only: corner_stress, edge_core, n_stresses, n_tractions
     implicit none
     private
 
-    public :: loads_t, reserve_loads, put_load, find_stress, same_row
+    public :: loads_t, reserve_loads, put_load, check_points, find_stress, same_row
 
     !> Rectangles with uniform loads; the caller owns them and their size (`reserve_loads`). The
     !> first `n` count. Rows along x whose elements follow one another are quickest.
@@ -60,6 +61,22 @@ contains
             loads%traction(:, i) = traction
         end associate
     end subroutine put_load
+
+    !> Refuse places that are no numbers and depths above the surface.
+    pure subroutine check_points(x, y, z, status)
+        real(wp), intent(in) :: x(:), y(:)    !! places, mm, as many of each as there are
+        real(wp), intent(in) :: z(:)          !! depths, mm
+        type(status_t), intent(out) :: status !! `st_bad_argument`
+
+        call clear_status(status)
+        if (.not. (all(ieee_is_finite(x)) .and. all(ieee_is_finite(y)) &
+                   .and. all(ieee_is_finite(z)))) then
+            call set_status(status, st_bad_argument, 'x, y and z of points must be finite numbers')
+        else if (any(z < 0.0_wp)) then
+            call set_status(status, st_bad_argument, 'depths must be 0 or more, got ' // &
+                            number_text(minval(z)))
+        end if
+    end subroutine check_points
 
     !> Stress at a point, MPa: the sum over the corners of all rectangles. An edge that two of a
     !> row share counts once, with the difference of their loads.

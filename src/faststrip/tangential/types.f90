@@ -37,6 +37,7 @@ module faststrip_tangential_types
         integer :: n = 0                 !! number of elements
         real(wp), allocatable :: x(:)    !! middle of the element, mm
         real(wp), allocatable :: y(:)    !! middle of the element, mm
+        real(wp), allocatable :: dx(:)   !! side of the element along x, mm
         real(wp), allocatable :: area(:) !! area of the element, mm^2
         real(wp), allocatable :: pn(:)   !! pressure, MPa
         real(wp), allocatable :: px(:)   !! traction on the rail along x, MPa
@@ -107,12 +108,12 @@ contains
         end if
         if (allocated(field%x)) then
             if (size(field%x) == capacity) return
-            deallocate (field%x, field%y, field%area, field%pn, field%px, field%py, field%sx, &
-                        field%sy, field%state)
+            deallocate (field%x, field%y, field%dx, field%area, field%pn, field%px, field%py, &
+                        field%sx, field%sy, field%state)
         end if
-        allocate (field%x(capacity), field%y(capacity), field%area(capacity), &
-                  field%pn(capacity), field%px(capacity), field%py(capacity), &
-                  field%sx(capacity), field%sy(capacity), source=0.0_wp)
+        allocate (field%x(capacity), field%y(capacity), field%dx(capacity), &
+                  field%area(capacity), field%pn(capacity), field%px(capacity), &
+                  field%py(capacity), field%sx(capacity), field%sy(capacity), source=0.0_wp)
         allocate (field%state(capacity), source=0)
     end subroutine reserve_field
 
@@ -133,9 +134,10 @@ contains
     end subroutine empty_field
 
     !> Put one more element into a field that has the capacity.
-    pure subroutine add_element(field, x, y, area, pn, px, py, sx, sy, state)
+    pure subroutine add_element(field, x, y, dx, area, pn, px, py, sx, sy, state)
         type(tangential_field_t), intent(inout) :: field !! emptied by `empty_field`
         real(wp), intent(in) :: x, y   !! middle of the element, mm
+        real(wp), intent(in) :: dx     !! side along x, mm
         real(wp), intent(in) :: area   !! mm^2
         real(wp), intent(in) :: pn     !! pressure, MPa
         real(wp), intent(in) :: px, py !! traction on the rail, MPa
@@ -143,14 +145,15 @@ contains
         integer, intent(in) :: state   !! `state_adhesion` or `state_slip`
 
         field%n = field%n + 1
-        call put_element(field, field%n, x, y, area, pn, px, py, sx, sy, state)
+        call put_element(field, field%n, x, y, dx, area, pn, px, py, sx, sy, state)
     end subroutine add_element
 
     !> Put an element into a place of a field.
-    pure subroutine put_element(field, i, x, y, area, pn, px, py, sx, sy, state)
+    pure subroutine put_element(field, i, x, y, dx, area, pn, px, py, sx, sy, state)
         type(tangential_field_t), intent(inout) :: field !! with the capacity
         integer, intent(in) :: i       !! place, 1 to n
         real(wp), intent(in) :: x, y   !! middle of the element, mm
+        real(wp), intent(in) :: dx     !! side along x, mm
         real(wp), intent(in) :: area   !! mm^2
         real(wp), intent(in) :: pn     !! pressure, MPa
         real(wp), intent(in) :: px, py !! traction on the rail, MPa
@@ -159,6 +162,7 @@ contains
 
         field%x(i) = x
         field%y(i) = y
+        field%dx(i) = dx
         field%area(i) = area
         field%pn(i) = pn
         field%px(i) = px

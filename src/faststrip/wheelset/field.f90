@@ -42,6 +42,7 @@ contains
             if (n == 0) return
             field%x(:n) = from%x(:n)
             field%y(:n) = from%y(:n)
+            field%dx(:n) = from%dx(:n)
             field%area(:n) = from%area(:n)
             field%pn(:n) = from%pn(:n)
             field%px(:n) = from%px(:n)
@@ -51,12 +52,13 @@ contains
             field%state(:n) = from%state(:n)
             call mirror_elements(workspace%is_reversed, side == side_left, field%x(:n), &
                                  field%y(:n), field%area(:n), field%pn(:n), field%px(:n), &
-                                 field%py(:n), field%sx(:n), field%sy(:n), field%state(:n))
+                                 field%py(:n), field%sx(:n), field%sy(:n), field%state(:n), &
+                                 field%dx(:n))
         end associate
     end subroutine find_wheel_field
 
     !> Elements in a mirror. One in y puts the last row first; each begins where it did.
-    subroutine mirror_elements(in_x, in_y, x, y, area, pn, px, py, sx, sy, state)
+    subroutine mirror_elements(in_x, in_y, x, y, area, pn, px, py, sx, sy, state, dx)
         logical, intent(in) :: in_x, in_y       !! what becomes its negative
         real(wp), intent(inout) :: x(:), y(:)   !! middle of the element, mm
         real(wp), intent(inout) :: area(:)      !! mm^2
@@ -64,6 +66,7 @@ contains
         real(wp), intent(inout) :: px(:), py(:) !! traction on the rail, MPa
         real(wp), intent(inout) :: sx(:), sy(:) !! slip over rolling speed
         integer, intent(inout) :: state(:)      !! adhesion or slip
+        real(wp), intent(inout), optional :: dx(:) !! mm
 
         integer :: first, last
 
@@ -102,6 +105,7 @@ contains
             call reverse(sx(i:j))
             call reverse(sy(i:j))
             call reverse(state(i:j))
+            if (present(dx)) call reverse(dx(i:j))
         end subroutine turn_round
     end subroutine mirror_elements
 end module faststrip_wheelset_field

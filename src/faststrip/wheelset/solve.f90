@@ -120,6 +120,10 @@ contains
                 if (.not. allocated(pair%y)) then
                     call set_status(status, st_bad_argument, 'the wheelset must be made first')
                     return
+                else if (model%case%asked%subsurface) then
+                    call set_status(status, st_bad_argument, 'stresses below the surface are ' // &
+                                    'those of one contact, not of a wheelset')
+                    return
                 end if
                 wheel%n = 0
                 wheel%approach = 0.0_wp

@@ -15,6 +15,8 @@ module faststrip_contact_method
     use faststrip_normal_strip, only: strip_workspace_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t
+    use faststrip_stress_loads, only: loads_t
+    use faststrip_stress_peak, only: peak_t
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t
     use faststrip_tangential_wear_law, only: wear_t
@@ -68,6 +70,7 @@ module faststrip_contact_method
         logical :: forces_are_estimated = .false.
             !! is that known? Of FASTSTRIP and FASTSIM, where the normal errors are
         type(wear_figures_t) :: wear     !! if there are forces
+        type(peak_t) :: stress_peak      !! largest von Mises stress of the rail, if asked for
         real(wp) :: gap_change = 0.0_wp  !! rms change of the gap by smoothing, mm
         type(times_t) :: times           !! if the case asks for them
     end type contact_result_t
@@ -99,6 +102,7 @@ module faststrip_contact_method
         integer :: solved_by = 0          !! normal method of the last contact; 0: none was solved
         type(tangential_field_t) :: field !! its elements, if asked for; see `reserve_contact_field`
         type(strip_forces_t) :: strip_forces !! sums over its strips, if asked for
+        type(loads_t) :: loads            !! what its stresses follow from; see `take_loads`
         type(status_t) :: wear_status
             !! why there is no wear of the last contact in spite of a law; or ok
         type(strip_wear_t) :: strip_wear  !! of the last contact, if there is a law
