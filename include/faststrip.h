@@ -302,8 +302,8 @@ int faststrip_get_elements(faststrip_workspace *workspace, int capacity, int *n,
 int faststrip_get_stresses(faststrip_workspace *workspace, int n, const double *x,
                            const double *y, const double *z, double *stresses);
 
-/* The largest von Mises stress below the last contact: figures becomes its value (MPa), where it is,
- * x, y, z (mm), and its estimated relative error; zeros with an error. */
+/* The largest von Mises stress below the last contact: figures becomes its value (MPa), where it
+ * is, x, y, z (mm), and its estimated relative error; zeros with an error. */
 int faststrip_get_stress_peak(faststrip_workspace *workspace, double figures[5]);
 
 /* Derivatives at the last contact: derivatives[i][j] is that of load, Fx, Fy (N), Mz (N mm) over

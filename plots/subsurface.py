@@ -22,13 +22,17 @@ def section(x, z, values, path):
     return across, depths, values[np.lexsort((x, z))].reshape(len(depths), len(across))
 
 
+def rounded(value):
+    """A number for people."""
+    return style.number(float(f"{value:.3g}"))
+
+
 def draw(axes, grid, levels, peak):
     """One section, depth downwards, with lines of equal stress and the largest."""
     drawn = axes.contourf(*grid, levels=levels, cmap=style.MAP)
     axes.contour(*grid, levels=levels, colors="white", linewidths=0.4)
     axes.plot(*peak, marker="+", color="black", markersize=10, clip_on=False)
     axes.set_aspect("equal")
-    axes.invert_yaxis()
     return drawn
 
 
@@ -50,11 +54,11 @@ def main(table):
                      (along[at], z[at]))
         fixed = "y" if along is x else "x"
         axes.set(xlabel=f"${name[0]}${name[1:]}, mm",
-                 title=f"Section at ${fixed}$ = {style.number(other[at])} mm")
+                 title=f"Section at ${fixed}$ = {rounded(other[at])} mm")
     panels[0].set_ylabel("depth $z$, mm")
-    figure.colorbar(drawn, ax=panels, label="von Mises stress, MPa", shrink=0.7)
-    return figure, (f"largest {style.number(stress[at])} MPa at depth "
-                    f"{style.number(z[at])} mm")
+    panels[0].invert_yaxis()
+    figure.colorbar(drawn, ax=panels, label="von Mises stress, MPa", shrink=0.7, format="%.0f")
+    return figure, f"largest {rounded(stress[at])} MPa at depth {rounded(z[at])} mm"
 
 
 if __name__ == "__main__":

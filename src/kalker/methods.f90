@@ -498,9 +498,9 @@ contains
         do j = 1, grid%ny
             do i = 1, grid%nx
                 if (grid%pressure(i, j) > 0.0_wp) call add_element( &
-                    workspace%field, element_x(grid, i), element_y(grid, j), grid%dx, &
-                    grid%dx*grid%dy, grid%pressure(i, j), 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
-                    state_adhesion)
+                    workspace%field, element_x(grid, i), element_y(grid, j), &
+                    [grid%dx, grid%dx*grid%dy], grid%pressure(i, j), 0.0_wp, 0.0_wp, 0.0_wp, &
+                    0.0_wp, state_adhesion)
             end do
         end do
     end subroutine keep_pressures

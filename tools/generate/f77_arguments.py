@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "embedding.md"
 # The modules of the interface, and what their arrays are about.
 FACE = {"f77": "contacts", "f77_doubts": "doubts", "f77_wheelset": "wheelsets",
-        "f77_wear": "friction, wear", "f77_derivatives": "derivatives",
+        "f77_wear": "friction, wear", "f77_stress": "stresses", "f77_derivatives": "derivatives",
         "f77_geometry": "geometry", "f77_lookup": "tables",
         "f77_lookup_wheel": "tables of a wheel"}
 MARKS = re.compile(r"(?s)(<!-- f77: arguments -->\n).*?(<!-- end -->)")

@@ -246,9 +246,10 @@ contains
                                                          + (creepage%ceta + x*creepage%cphi)*py)
                     lambda = max(heat, 0.0_wp)/(length*(px*px + py*py))
                 end if
-                call put_element(field, field%n + (k - 1)*n + i, x, block%y(k), length, &
-                                 block%cell(k), strips%p0(block%strip(k))*sqrt(1.0_wp - t*t), &
-                                 px, py, -lambda*px, -lambda*py, state)
+                call put_element(field, field%n + (k - 1)*n + i, x, block%y(k), &
+                                 [length, block%cell(k)], &
+                                 strips%p0(block%strip(k))*sqrt(1.0_wp - t*t), px, py, &
+                                 -lambda*px, -lambda*py, state)
             end associate
         end do
     end subroutine note_elements

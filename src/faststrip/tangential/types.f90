@@ -134,27 +134,25 @@ contains
     end subroutine empty_field
 
     !> Put one more element into a field that has the capacity.
-    pure subroutine add_element(field, x, y, dx, area, pn, px, py, sx, sy, state)
+    pure subroutine add_element(field, x, y, size, pn, px, py, sx, sy, state)
         type(tangential_field_t), intent(inout) :: field !! emptied by `empty_field`
         real(wp), intent(in) :: x, y   !! middle of the element, mm
-        real(wp), intent(in) :: dx     !! side along x, mm
-        real(wp), intent(in) :: area   !! mm^2
+        real(wp), intent(in) :: size(2) !! side along x, mm, and area, mm^2
         real(wp), intent(in) :: pn     !! pressure, MPa
         real(wp), intent(in) :: px, py !! traction on the rail, MPa
         real(wp), intent(in) :: sx, sy !! slip over rolling speed
         integer, intent(in) :: state   !! `state_adhesion` or `state_slip`
 
         field%n = field%n + 1
-        call put_element(field, field%n, x, y, dx, area, pn, px, py, sx, sy, state)
+        call put_element(field, field%n, x, y, size, pn, px, py, sx, sy, state)
     end subroutine add_element
 
     !> Put an element into a place of a field.
-    pure subroutine put_element(field, i, x, y, dx, area, pn, px, py, sx, sy, state)
+    pure subroutine put_element(field, i, x, y, size, pn, px, py, sx, sy, state)
         type(tangential_field_t), intent(inout) :: field !! with the capacity
         integer, intent(in) :: i       !! place, 1 to n
         real(wp), intent(in) :: x, y   !! middle of the element, mm
-        real(wp), intent(in) :: dx     !! side along x, mm
-        real(wp), intent(in) :: area   !! mm^2
+        real(wp), intent(in) :: size(2) !! side along x, mm, and area, mm^2
         real(wp), intent(in) :: pn     !! pressure, MPa
         real(wp), intent(in) :: px, py !! traction on the rail, MPa
         real(wp), intent(in) :: sx, sy !! slip over rolling speed
@@ -162,8 +160,8 @@ contains
 
         field%x(i) = x
         field%y(i) = y
-        field%dx(i) = dx
-        field%area(i) = area
+        field%dx(i) = size(1)
+        field%area(i) = size(2)
         field%pn(i) = pn
         field%px(i) = px
         field%py(i) = py

@@ -50,7 +50,7 @@ contains
             field%sx(:n) = from%sx(:n)
             field%sy(:n) = from%sy(:n)
             field%state(:n) = from%state(:n)
-            call mirror_elements(workspace%is_reversed, side == side_left, field%x(:n), &
+            call mirror_elements([workspace%is_reversed, side == side_left], field%x(:n), &
                                  field%y(:n), field%area(:n), field%pn(:n), field%px(:n), &
                                  field%py(:n), field%sx(:n), field%sy(:n), field%state(:n), &
                                  field%dx(:n))
@@ -58,8 +58,8 @@ contains
     end subroutine find_wheel_field
 
     !> Elements in a mirror. One in y puts the last row first; each begins where it did.
-    subroutine mirror_elements(in_x, in_y, x, y, area, pn, px, py, sx, sy, state, dx)
-        logical, intent(in) :: in_x, in_y       !! what becomes its negative
+    subroutine mirror_elements(mirrored, x, y, area, pn, px, py, sx, sy, state, dx)
+        logical, intent(in) :: mirrored(2)      !! do x and y become their negatives?
         real(wp), intent(inout) :: x(:), y(:)   !! middle of the element, mm
         real(wp), intent(inout) :: area(:)      !! mm^2
         real(wp), intent(inout) :: pn(:)        !! pressure, MPa
@@ -70,12 +70,12 @@ contains
 
         integer :: first, last
 
-        if (in_x) then
+        if (mirrored(1)) then
             x = -x
             px = -px
             sx = -sx
         end if
-        if (.not. in_y) return
+        if (.not. mirrored(2)) return
         y = -y
         py = -py
         sy = -sy
