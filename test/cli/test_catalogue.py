@@ -71,7 +71,7 @@ class Catalogue(ProgramTest):
         lacking, having = {}, {}
         for words in (("--tangential", "none"), ("--normal", "equal_area"),
                       ("--tangential", "polach"), (), ("--smooth", "1", "--yield-shear-MPa", "300"),
-                      ("--wear", self.law())):
+                      ("--wear", self.law()), ("--subsurface",)):
             done = self.succeed("contact", CASE, *map(str, words))
             row = rows_of(done.stdout)[0]
             for one in self.rows:

@@ -30,7 +30,7 @@ module faststrip_command_contact_below
     integer, parameter :: most_places = 10000000
     ! Tuned [points]: of a grid of the program's choice, about, across the contact, and in depth.
     ! Origin: chosen for pictures.
-    integer, parameter :: usual_across = 30, usual_depths = 20
+    integer, parameter :: usual_across = 20, usual_depths = 16
     ! Tuned [1]: part of the contact that such a grid goes beyond it on either side. Origin: chosen.
     real(wp), parameter :: beyond = 0.25_wp
 
