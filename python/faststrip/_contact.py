@@ -571,15 +571,16 @@ class Contact:
         """
         given = [array(name, value) for name, value in (("x", x), ("y", y), ("z", z))]
         try:
-            points = [np.ascontiguousarray(one) for one in np.broadcast_arrays(*given)]
+            spread = np.broadcast_arrays(*given)
         except ValueError:
             raise bad_argument("x, y and z must have shapes that fit together, got "
                                + ", ".join(str(one.shape) for one in given)) from None
-        found = np.empty((points[0].size, N_STRESSES))
-        self._call(library.faststrip_get_stresses, points[0].size,
-                   *_addresses([*points, found]), long=points[0].size > LONG_POINTS,
-                   keep=(points, found))
-        return Stresses(*points, *(column.reshape(points[0].shape).copy() for column in found.T))
+        points, shape = [one.ravel() for one in spread], spread[0].shape
+        n = points[0].size
+        found = np.empty((n, N_STRESSES))
+        self._call(library.faststrip_get_stresses, n, *_addresses([*points, found]),
+                   long=n > LONG_POINTS, keep=(points, found))
+        return Stresses(*(one.reshape(shape).copy() for one in (*points, *found.T)))
 
     def stress_peak(self) -> StressPeak:
         """The largest von Mises stress of the rail below the last contact.

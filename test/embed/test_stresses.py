@@ -91,7 +91,8 @@ class Stresses(HostTest):
         cls.found = cls.contact.stresses(*zip(*POINTS))
 
     def test_the_program_has_them(self):
-        self.shell("faststrip contact case.nml -o row.csv --below below.csv --points-per-strip 15"
+        self.shell(f"{self.installed.prefix}/bin/faststrip contact case.nml -o row.csv"
+                   " --below below.csv --points-per-strip 15"
                    " --below-x=-4,0,1.25 --below-y=-1,2 --below-z 0.5,3")
         rows, figures = (list(csv.DictReader(line for line in (self.folder / name).read_text(
             encoding="utf-8").splitlines() if line[0] != "#")) for name in ("below.csv", "row.csv"))
