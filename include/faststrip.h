@@ -330,6 +330,18 @@ int faststrip_get_elements(faststrip_workspace *workspace, int capacity, int *n,
                            double *y, double *area, double *pn, double *px, double *py,
                            double *sx, double *sy, int *state);
 
+/* Stresses of the rail at n points below the last contact, if with_elements kept its elements or
+ * there is no tangential method: x, y, and the depth z from 0 on (mm), in the frame of the contact.
+ * stresses becomes 11 n numbers (MPa), of each point xx, yy, zz, xy, xz, yz with tension positive,
+ * von Mises, Tresca, and the principal values, the largest first. On the surface they are good at
+ * the middles of elements. */
+int faststrip_get_stresses(faststrip_workspace *workspace, int n, const double *x,
+                           const double *y, const double *z, double *stresses);
+
+/* The largest von Mises stress below the last contact: figures becomes its value (MPa), where it
+ * is, x, y, z (mm), and its estimated relative error; zeros with an error. */
+int faststrip_get_stress_peak(faststrip_workspace *workspace, double figures[5]);
+
 /* Derivatives at the last contact: derivatives[i][j] is that of load, Fx, Fy (N), Mz (N mm) over
  * penetration (mm), cksi, ceta (-), cphi (rad/mm), with the strips that were solved. Forces have
  * kinks where an element begins to slide: one side of it is given. 100: by auto, a reference or

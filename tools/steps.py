@@ -123,6 +123,9 @@ python plots/patches.py --shift {shift} --norm out/norm_shift_{shift}.csv
 DEMO_END = """
 python plots/sweep.py
 python plots/overview.py
+== stresses below a contact
+faststrip contact example/s1002_uic60.nml --shift 0 -o /dev/null --below out/below.csv
+python plots/subsurface.py
 == a wheelset on its track, from side to side
 faststrip wheelset example/wheelset_states.nml --states example/wheelset_states.csv \
     -o out/wheelset.csv --strips out/wheelset_strips.csv --profiles out/wheelset_profiles.csv \

@@ -27,7 +27,7 @@ from ._lookup_wheel import WheelContacts, WheelLookup
 from ._many import ManyResult, solve_many
 from ._plot import plot_profiles
 from ._profile import Gap, Profile, draw_profile, profile_gap
-from ._results import Elements, Result, Step, Strips
+from ._results import Elements, Result, Step, Stresses, StressPeak, Strips
 from ._wear import Flash, Friction, StripWear, Thermal, Wear, WearLaw
 from ._wheelset import RailState, WheelContact, Wheelset, WheelsetResult
 from .pair.contact import ContactResult, contact
@@ -56,6 +56,8 @@ __all__ = [
     "RailState",
     "Result",
     "Step",
+    "StressPeak",
+    "Stresses",
     "StripWear",
     "Strips",
     "SweepResult",

@@ -41,7 +41,7 @@ from ._library import (
     word_of,
 )
 from ._profile import Gap
-from ._results import Elements, Result, Step, Strips
+from ._results import Elements, Result, Step, Stresses, StressPeak, Strips
 from ._wear import (
     CONSTANT,
     Flash,
@@ -108,6 +108,10 @@ TOLERANCE = 0.02
 LONG_STRIPS = 31
 LONG_GRID = 100000
 LONG_GAP = 100000
+# Points with stresses.
+LONG_POINTS = 2000
+# Numbers of such a point.
+N_STRESSES = 11
 # FASTSIM and its variants.
 BY_GRID = 2, 5, 6
 
@@ -304,7 +308,7 @@ class Contact:
     fastsim_grid : two ints
         Points along a row, and rows, of FASTSIM.
     with_elements : bool
-        Are tractions and slip of every element kept, for `elements` and `plot`?
+        Are tractions and slip of every element kept, for `elements`, `stresses` and `plot`?
     max_points : int
         Points of a gap there is room for at first; longer ones get room.
     estimate : bool
@@ -584,6 +588,55 @@ class Contact:
             Pressures, tractions, slip and states; empty unless the Contact was made with_elements.
         """
         return Elements(*fetch(self._call, library.faststrip_get_elements, 8))
+
+    def stresses(self, x: Any, y: Any, z: Any) -> Stresses:
+        """Stresses of the rail at points below the last contact.
+
+        Parameters
+        ----------
+        x, y, z : array_like
+            Points in the frame of the contact, z the depth from 0 on, mm; of shapes that numpy
+            broadcasts together.
+
+        Returns
+        -------
+        Stresses
+            In the shape of the points. On the surface they are good at the middles of elements.
+
+        Raises
+        ------
+        FaststripError
+            Unless the Contact was made with_elements, or with tangential ``none``.
+        """
+        given = [array(name, value) for name, value in (("x", x), ("y", y), ("z", z))]
+        try:
+            spread = np.broadcast_arrays(*given)
+        except ValueError:
+            raise bad_argument("x, y and z must have shapes that fit together, got "
+                               + ", ".join(str(one.shape) for one in given)) from None
+        points, shape = [one.ravel() for one in spread], spread[0].shape
+        n = points[0].size
+        found = np.empty((n, N_STRESSES))
+        self._call(library.faststrip_get_stresses, n, *_addresses([*points, found]),
+                   long=n > LONG_POINTS, keep=(points, found))
+        return Stresses(*(one.reshape(shape).copy() for one in (*points, *found.T)))
+
+    def stress_peak(self) -> StressPeak:
+        """The largest von Mises stress of the rail below the last contact.
+
+        Returns
+        -------
+        StressPeak
+            With its estimated relative error.
+
+        Raises
+        ------
+        FaststripError
+            Unless the Contact was made with_elements, or with tangential ``none``.
+        """
+        figures = (c_double * len(fields(StressPeak)))()
+        self._call(library.faststrip_get_stress_peak, figures)
+        return StressPeak(*figures)
 
     def wear(self, law: Optional[WearLaw] = None, *,
              yield_shear: Optional[float] = None) -> Wear:

@@ -113,6 +113,8 @@ def _declare(library: ctypes.CDLL) -> None:
         "get_derivatives": [handle, c_void_p],
         "get_strips": [handle, c_int, POINTER(c_int), *[c_void_p] * 5],
         "get_elements": [handle, c_int, POINTER(c_int), *[c_void_p] * 9],
+        "get_stresses": [handle, c_int, *[c_void_p] * 4],
+        "get_stress_peak": [handle, POINTER(number)],
         "get_steps": [handle, c_int, POINTER(c_int), *[c_void_p] * 7],
         "get_wear": [handle, c_void_p, number, POINTER(number)],
         "get_flash": [handle, POINTER(number)],

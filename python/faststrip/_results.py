@@ -194,3 +194,52 @@ class Elements(Table):
         from ._plot import plot_elements
 
         return plot_elements(self, axes)
+
+
+@described
+@dataclass(frozen=True)
+class Stresses(Table):
+    """Stresses of the rail at points below a contact; tension is positive.
+
+    The arrays have the shape of the points; the tables have a row for each.
+
+    Attributes
+    ----------
+    <figures>
+    """
+
+    x: Array
+    y: Array
+    z: Array
+    sxx: Array
+    syy: Array
+    szz: Array
+    sxy: Array
+    sxz: Array
+    syz: Array
+    von_mises: Array
+    tresca: Array
+    s1: Array
+    s2: Array
+    s3: Array
+    _rows: ClassVar[str] = "point"
+
+    def _columns(self) -> Dict[str, Any]:
+        return {name: values.ravel() for name, values in super()._columns().items()}
+
+
+@described
+@dataclass(frozen=True)
+class StressPeak(Row):
+    """The largest von Mises stress of the rail below a contact.
+
+    Attributes
+    ----------
+    <figures>
+    """
+
+    von_mises_max: float
+    von_mises_x: float
+    von_mises_y: float
+    von_mises_z: float
+    est_err_von_mises: float

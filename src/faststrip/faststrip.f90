@@ -40,6 +40,8 @@
 !> faststrip_tangential_paper           faststrip_tangential_laws
 !> faststrip_tangential_wear_numbers    faststrip_tangential_wear_law
 !> faststrip_tangential_heat_sources    faststrip_tangential_heat_flash: temperatures anywhere
+!> faststrip_stress_loads               faststrip_stress_invariants
+!> faststrip_stress_peak                stresses below loads, their largest
 !> faststrip_contact_methods            the list of methods, names and what each gives
 !> faststrip_contact_method             faststrip_contact_method_capacity: what a method extends
 !> faststrip_contact_reserve            faststrip_contact_solve

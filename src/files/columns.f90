@@ -92,6 +92,17 @@ module faststrip_files_columns
         column_t('power_MPa', holds_numbers, 'frictional work per area and distance rolled'), &
         column_t('surface_wheel_C', holds_numbers, 'temperature of the wheel at the element'), &
         column_t('surface_rail_C', holds_numbers, 'temperature of the rail at the element'), &
+        column_t('sxx_MPa', holds_numbers, 'stress of the rail, along x', 'sxx'), &
+        column_t('syy_MPa', holds_numbers, 'stress of the rail, along y', 'syy'), &
+        column_t('szz_MPa', holds_numbers, 'stress of the rail, in depth', 'szz'), &
+        column_t('sxy_MPa', holds_numbers, 'shear stress of the rail', 'sxy'), &
+        column_t('sxz_MPa', holds_numbers, 'shear stress of the rail', 'sxz'), &
+        column_t('syz_MPa', holds_numbers, 'shear stress of the rail', 'syz'), &
+        column_t('von_mises_MPa', holds_numbers, 'von Mises equivalent stress', 'von_mises'), &
+        column_t('tresca_MPa', holds_numbers, 'Tresca equivalent stress, s1 - s3', 'tresca'), &
+        column_t('s1_MPa', holds_numbers, 'largest principal stress', 's1'), &
+        column_t('s2_MPa', holds_numbers, 'principal stress between', 's2'), &
+        column_t('s3_MPa', holds_numbers, 'smallest principal stress', 's3'), &
         column_t('h_mm', holds_numbers, 'undeformed gap', 'h'), &
         column_t('inv2R_per_mm', holds_numbers, '1/(2R) along the rolling direction', 'inv2r'), &
         column_t('inclination_rad', holds_numbers, 'inclination of the surfaces', 'inclination')]

@@ -16,8 +16,10 @@ module faststrip_kalker_methods
     use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_strips, only: usual_strips
     use faststrip_normal_types, only: normal_result_t
-    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field
-    use faststrip_contact_case, only: contact_case_t, wants_elements, asked_t
+    use faststrip_stress_loads, only: reserve_loads
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
+                                          add_element, state_adhesion
+    use faststrip_contact_case, only: contact_case_t, asked_t, keeps_elements
     use faststrip_contact_method, only: normal_method_t, tangential_method_t, workspace_t, &
                                         contact_result_t, enter_normal_method, &
                                         enter_tangential_method
@@ -31,7 +33,7 @@ module faststrip_kalker_methods
     use faststrip_contact_reserve, only: reserve_workspace
     use faststrip_contact_solve, only: solve_contact, set_contact_curve
     use faststrip_contact_wanted, only: others_t
-    use faststrip_kalker_grid, only: contact_grid_t
+    use faststrip_kalker_grid, only: contact_grid_t, element_x, element_y
     use faststrip_kalker_normal, only: norm_options_t, norm_workspace_t, reserve_norm, &
                                        release_norm, set_norm_curve, norm_solve_demand, norm_watch
     use faststrip_kalker_normal_options, only: fitting_side
@@ -211,9 +213,14 @@ contains
                                        memory%start%strips, memory%watch_norm)
             end if
             if (.not. is_error(status)) call take_rows(memory, workspace, status)
-            ! For methods that march along the rows.
-            if (.not. is_error(status) .and. wants_elements(case%asked)) &
-                call grow_field(workspace, workspace%strips%n*methods%points_per_strip, status)
+            if (is_error(status)) return
+            if (keeps_elements(case)) then
+                ! For methods that march along the rows.
+                call grow_field(workspace, case, workspace%strips%n*methods%points_per_strip, &
+                                status)
+            else if (case%asked%subsurface) then
+                call keep_pressures(memory%norm%grid, workspace, case, status)
+            end if
         end associate
     end subroutine solve_by_norm
 
@@ -335,7 +342,8 @@ contains
         if (is_error(status)) return
         associate (grid => memory%norm%grid)
             call memory%watch_tang(count(grid%pressure > 0.0_wp), .true.)
-            if (wants_elements(case%asked)) call grow_field(workspace, size(grid%pressure), status)
+            if (keeps_elements(case)) &
+                call grow_field(workspace, case, size(grid%pressure), status)
             if (is_error(status)) return
             call solve_dissimilar(memory%dissimilar, grid, problem, converged, result%tangential, &
                                   status, asked_field(workspace, case))
@@ -455,7 +463,7 @@ contains
         call clear_status(status)
         elements = count(grid%pressure > 0.0_wp)
         call memory%watch_tang(elements, .false.)
-        if (wants_elements(case%asked)) call grow_field(workspace, elements, status)
+        if (keeps_elements(case)) call grow_field(workspace, case, elements, status)
     end subroutine prepare_grid
 
     subroutine solve_on_grid(tang, grid, edges, workspace, case, tangential, status, field)
@@ -477,9 +485,32 @@ contains
                         case%creepage, options, tangential, status, field, workspace%friction)
     end subroutine solve_on_grid
 
-    !> Room for elements in the field, if there is too little.
-    subroutine grow_field(workspace, elements, status)
+    !> The elements of a grid without tractions, for stresses below them.
+    subroutine keep_pressures(grid, workspace, case, status)
+        type(contact_grid_t), intent(in) :: grid
         type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
+        type(status_t), intent(inout) :: status
+
+        integer :: i, j
+
+        call grow_field(workspace, case, count(grid%pressure > 0.0_wp), status)
+        if (is_error(status)) return
+        workspace%field%n = 0
+        do j = 1, grid%ny
+            do i = 1, grid%nx
+                if (grid%pressure(i, j) > 0.0_wp) call add_element( &
+                    workspace%field, element_x(grid, i), element_y(grid, j), &
+                    [grid%dx, grid%dx*grid%dy], grid%pressure(i, j), 0.0_wp, 0.0_wp, 0.0_wp, &
+                    0.0_wp, state_adhesion)
+            end do
+        end do
+    end subroutine keep_pressures
+
+    !> Room for elements in the field and for their loads, if there is too little.
+    subroutine grow_field(workspace, case, elements, status)
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
         integer, intent(in) :: elements
         type(status_t), intent(inout) :: status
 
@@ -488,8 +519,10 @@ contains
 
         capacity = 0
         if (allocated(workspace%field%x)) capacity = size(workspace%field%x)
-        if (elements <= capacity) return
-        call reserve_field(workspace%field, elements, grown)
+        grown = status_t()
+        if (elements > capacity) call reserve_field(workspace%field, elements, grown)
+        if (.not. is_error(grown) .and. case%asked%subsurface) &
+            call reserve_loads(workspace%loads, elements, grown)
         if (is_error(grown)) status = grown
     end subroutine grow_field
 end module faststrip_kalker_methods

@@ -27,7 +27,8 @@ RESULT_COLUMNS = (
     "est_err_Mz,est_err_cksi,est_err_ceta,gap_change_um,choice,strips_across,limitations,"
     "t_gamma_N,t_gamma_spin_N,t_gamma_per_area_N_per_mm2,fatigue_index,wear_ug_per_m,"
     "wear_mm3_per_m,flash_temperature_K,"
-    "temperature_max_C,temperature_x_mm,temperature_y_mm"
+    "temperature_max_C,temperature_x_mm,temperature_y_mm,von_mises_max_MPa,"
+    "von_mises_x_mm,von_mises_y_mm,von_mises_z_mm,est_err_von_mises"
 ).split(",")
 
 # What does not change from run to run and is no status.

@@ -81,7 +81,7 @@ class Catalogue(ProgramTest):
         self.write("warm.nml", profile_case(motion="speed_mm_s = 1e4", extra="&thermal\n/\n"))
         for words in (("--tangential", "none"), ("--normal", "equal_area"),
                       ("--tangential", "polach"), (), ("--smooth", "1", "--yield-shear-MPa", "300"),
-                      ("--wear", self.law()), ("warm.nml",)):
+                      ("--wear", self.law()), ("--subsurface",), ("warm.nml",)):
             case = words[0] if words[:1] == ("warm.nml",) else CASE
             done = self.succeed("contact", case, *map(str, words[case != CASE:]))
             row = rows_of(done.stdout)[0]

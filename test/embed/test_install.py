@@ -20,7 +20,7 @@ F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp f
                 " fsroll fsrprf fswcpy fswfre fsderv fswdrv"
                 " fsfric fsfrtb fswear fsstwr fsheat fsflsh fstemp"
                 " fscfun fsconi fslopn fslfre fslinf fslook fslwin fslcon"
-                " fslwze fswlkp fslwhl fsrdpr fsdoub fsgivn fscrep".split())
+                " fslwze fswlkp fslwhl fsrdpr fsdoub fsgivn fscrep fsstrs fspeak".split())
 
 CORE = ROOT / "src" / "faststrip"
 

@@ -1,5 +1,6 @@
 """The pictures: written, not empty, marked with the revision; bad input refused in one line."""
 
+import math
 import subprocess
 import sys
 import unittest
@@ -66,6 +67,10 @@ TRACTION = "# faststrip 0.1.0 rev abc\n# compiler\ncase,series,cksi,N_N,mu,Fx_N\
     for k, (series, fall, cksi) in enumerate((series, fall, cksi)
                                              for series, fall in (("constant", 1), ("falling", 0.7))
                                              for cksi in (1e-5, 1e-3, 1e-2)))
+FILES |= {"out/below.csv": "# faststrip 0.1.0 rev abc\n# compiler\n"
+                           "x_mm,y_mm,z_mm,von_mises_MPa\n" + "".join(
+    f"{x},{y},{z},{900 * math.exp(-x * x - y * y - (z - 1)**2)}\n"
+    for z in (0, 0.5, 1, 2) for y in (-1, 0, 1) for x in (-2, -1, 0.5, 1))}
 FILES |= {f"out/traction_{name}.csv": TRACTION for name in ("faststrip", "fastsim", "tang")}
 FILES |= {"reference/contact/traction_curve.csv": TRACTION}
 RIG = ("# faststrip 0.1.0 rev abc\n# compiler\ncase,side,contact,x_track_mm,cphi_rad_per_mm,"
@@ -85,6 +90,7 @@ PICTURES = {
     "lookup": ("out/lookup/lookup.png",),
     "traction_curve": ("out/traction_curve.png",),
     "roller_rig": ("out/roller_rig.png",),
+    "subsurface": ("out/subsurface.png",),
     "profiles": ("out/profiles_shift_0.png",),
     "patches": ("out/patch_shift_0.png", "out/pressure_shift_0.png"),
     "sweep": ("out/sweep_normal.png", "out/sweep_tangential.png"),
@@ -97,6 +103,7 @@ COLUMNS = {
     "lookup": ("out/lookup/contacts.csv", "Fy_cubic_N"),
     "traction_curve": ("out/traction_faststrip.csv", "Fx_N"),
     "roller_rig": ("out/roller_rig_rails.csv", "Fx_track_N"),
+    "subsurface": ("out/below.csv", "von_mises_MPa"),
     "profiles": ("out/profiles_shift_0.csv", "z_mm"),
     "patches": ("out/strips_shift_0.csv", "half_length_mm"),
     "sweep": ("out/sweep.csv", "Mz_Nmm"),

@@ -8,7 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 CORE = "src/faststrip"
 # Rooms of the core from the ground up: each imports from rooms below it, and from itself.
-ROOMS = ["base", "numerics", "lookup", "influence", "geometry", "normal", "tangential",
+ROOMS = ["base", "numerics", "lookup", "influence", "geometry", "normal", "tangential", "stress",
          "contact", "wheelset", "interop"]
 # Packages from the ground up: each imports from those it names here, and from itself.
 PACKAGES = {

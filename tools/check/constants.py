@@ -34,8 +34,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ROOMS = ("src/faststrip/base/limits.f90", "src/faststrip/numerics", "src/faststrip/influence",
          "src/faststrip/geometry", "src/faststrip/normal", "src/faststrip/tangential",
-         "src/faststrip/contact", "src/faststrip/wheelset", "src/kalker", "src/tabulate",
-         "app/command")
+         "src/faststrip/stress", "src/faststrip/contact", "src/faststrip/wheelset", "src/kalker",
+         "src/tabulate", "app/command")
 # Tables and nothing else, and why none of their numbers is tuned.
 GIVEN_FILES = {
     "influence/angle_rules.f90": "quadrature rules by their errors",

@@ -80,7 +80,7 @@ TIME_OUT = "time-out"
 INTERFACES = [f"test/embed/test_{name}.py" for name in (
     "values", "figures", "python", "callers", "legacy", "wheelsets")]
 FORTRAN_ROOMS = ("base", "numerics", "lookup", "influence", "geometry", "normal", "tangential",
-                 "contact", "wheelset", "files", "kalker", "tables")
+                 "stress", "contact", "wheelset", "files", "kalker", "tables")
 OWN_STAGES = {
     **{room: [("fortran", f"{room}/")] for room in FORTRAN_ROOMS},
     "interop": [("installed", INTERFACES)],

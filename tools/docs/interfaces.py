@@ -35,7 +35,8 @@ C = (
 METHODS = ("``NORMAL`` and ``TANGENTIAL`` have the names of the command line's `methods "
            "<../docs/usage.html#methods>`__.\n")
 PYTHON = (
-    ("contact", "One contact", "Contact Result Step Strips Elements Material Friction"),
+    ("contact", "One contact", "Contact Result Step Strips Elements Stresses StressPeak "
+     "Material Friction"),
     ("pair", "A wheel on a rail",
      "contact ContactResult sweep SweepResult creep_map CreepMap"),
     ("many", "Many contacts", "solve_many ManyResult"),

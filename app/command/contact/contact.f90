@@ -12,6 +12,8 @@ module faststrip_command_contact
                                                          take_method_options
     use faststrip_command_settings_case_file, only: case_t, read_case
     use faststrip_command_settings_case_doubts, only: hold_case_doubts, hold_pressure
+    use faststrip_command_contact_below, only: below_options, points_t, take_points, find_below, &
+                                               put_below
     use faststrip_command_contact_prepared_case, only: prepared_case_t, prepare_case, put_gap, &
                                                        put_profiles
     use faststrip_command_contact_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
@@ -25,8 +27,8 @@ module faststrip_command_contact
     public :: run_contact
 
     !> The options that name files to write.
-    character(len=*), parameter :: outputs(5) = [character(len=10) :: &
-        '-o', '--strips', '--fields', '--gap', '--profiles']
+    character(len=*), parameter :: outputs(6) = [character(len=10) :: &
+        '-o', '--strips', '--fields', '--gap', '--profiles', '--below']
 
     !> What people are shown.
     character(len=*), parameter :: shown(*) = [character(len=15) :: &
@@ -44,6 +46,7 @@ contains
         type(solver_t), pointer :: solver
         type(contact_result_t) :: result
         type(point_spacing_t) :: spacing
+        type(points_t) :: points
         type(csv_writer_t) :: writer(size(outputs))
         type(status_t) :: status
 
@@ -65,6 +68,7 @@ contains
                      writes=.true.), &
             option_t('--profiles', 'FILE', 'write wheel and rail in contact there', &
                      writes=.true.), &
+            below_options(), &
             plot_option, &
             option_t('--shift', 'MM', 'lateral displacement, instead of that of the case'), &
             method_options()]
@@ -76,6 +80,8 @@ contains
         case%asked%times = .true.
         case%asked%field = given(command, '--fields')
         case%asked%strip_forces = given(command, '--strips')
+        call take_points(command, points)
+        if (given(command, '--below')) case%asked%subsurface = .true.
         if (len(case%gap_file) > 0) then
             if (given(command, '--profiles')) &
                 call usage_error('--profiles: the case has a gap file', command%name)
@@ -97,6 +103,8 @@ contains
         call name_spacing(spacing, status)
         if (status%code /= st_ok) call note(trim(status%message))
         call note_wear(solver%workspace%wear_status, '')
+        if (given(command, '--below')) &
+            call find_below(solver%workspace%loads, case%material%nu_rail, points)
         call open_outputs(command, outputs, writer)
         call put_sweep_header(writer(1), case)
         call put_sweep_row(writer(1), case, prepared, result, solver%workspace%steps, status)
@@ -109,6 +117,7 @@ contains
         if (given(command, '--gap')) call put_gap(writer(4), solver%workspace%solver%curve, &
                                                   case%smoothing)
         if (given(command, '--profiles')) call put_profiles(writer(5), case, prepared)
+        if (given(command, '--below')) call put_below(writer(6), points)
         if (given(command, '--plot')) &
             call keep_files(case, prepared, solver)
         call close_outputs(command, outputs, writer, shown)

@@ -9,10 +9,11 @@ module faststrip_command_contact_solver
     use faststrip_geometry_gap, only: gap_t, check_gap
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
     use faststrip_geometry_gap_smoothing, only: smooth_gap
-    use faststrip_contact_case, only: contact_case_t, wants_elements
+    use faststrip_contact_case, only: contact_case_t, keeps_elements
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_methods, only: contact_methods_t
-    use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
+    use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field, &
+                                         reserve_contact_loads
     use faststrip_contact_solve, only: solve_contact, set_contact_curve
     use faststrip_kalker_grid, only: contact_grid_t
     use faststrip_kalker_methods, only: kalker_methods_t, add_kalker, release_kalker
@@ -31,6 +32,7 @@ module faststrip_command_contact_solver
         integer, private :: points = 0                ! of a gap that it has capacity for
         type(contact_methods_t), private :: methods   ! that it has capacity for
         logical, private :: has_field = .false.       ! has it capacity for elements?
+        logical, private :: has_loads = .false.       ! and for loads?
     end type solver_t
 
     !> A gap that is ready for many contacts.
@@ -102,11 +104,16 @@ contains
                 solver%gap_id = 0
                 call reserve_workspace(solver%workspace, methods, solver%points, status)
                 solver%has_field = .false.
+                solver%has_loads = .false.
             end if
-            if (.not. is_error(status) .and. wants_elements(case%asked) &
-                .and. .not. solver%has_field) then
+            if (.not. is_error(status) .and. keeps_elements(case) .and. .not. solver%has_field) then
                 call reserve_contact_field(solver%workspace, methods, status)
                 solver%has_field = .true.
+            end if
+            if (.not. is_error(status) .and. case%asked%subsurface &
+                .and. .not. solver%has_loads) then
+                call reserve_contact_loads(solver%workspace, methods, status)
+                solver%has_loads = .true.
             end if
             solver%methods = methods
         end associate

@@ -6,6 +6,7 @@ module faststrip_command_rows_result_csv
                                          figure_est_err_cksi, figure_est_err_fx, &
                                          figure_est_err_fy, figure_est_err_mz, &
                                          figure_est_err_penetration, figure_est_err_pmax, &
+                                         figure_est_err_von_mises, &
                                          figure_fatigue_index, figure_flash_temperature, &
                                          figure_friction_power, figure_fx, &
                                          figure_fy, figure_gap_change, figure_mz, &
@@ -16,7 +17,9 @@ module faststrip_command_rows_result_csv
                                          figure_t_gamma_per_area, figure_t_gamma_spin, &
                                          figure_tangential_us, figure_temperature_max, &
                                          figure_temperature_x, figure_temperature_y, &
-                                         figure_wear_mass, &
+                                         figure_von_mises_max, &
+                                         figure_von_mises_x, figure_von_mises_y, &
+                                         figure_von_mises_z, figure_wear_mass, &
                                          figure_wear_volume, figure_x_max, figure_y_max, &
                                          figure_y_min, figures, n_figures
     use faststrip_contact_figure_values, only: find_figures
@@ -47,7 +50,7 @@ module faststrip_command_rows_result_csv
     character(len=*), parameter :: no_wear = 'no wear: '
 
     !> Figures in the order of their columns: of the pressures and forces, times, errors; of what
-    !> friction does to the surfaces.
+    !> friction does to the surfaces; of stresses.
     integer, parameter :: main_figures(*) = [ &
         figure_penetration, figure_area, figure_pmax, figure_y_min, figure_y_max, figure_x_max, &
         figure_n_patches, figure_fx, figure_fy, figure_mz, figure_friction_power, &
@@ -60,6 +63,10 @@ module faststrip_command_rows_result_csv
         figure_wear_mass, figure_wear_volume, figure_flash_temperature, figure_temperature_max, &
         figure_temperature_x, figure_temperature_y]
 
+    integer, parameter :: stress_figures(*) = [ &
+        figure_von_mises_max, figure_von_mises_x, figure_von_mises_y, figure_von_mises_z, &
+        figure_est_err_von_mises]
+
     !> Names of a strip's columns, in the order of `put_strip`.
     character(len=*), parameter :: strip_columns(*) = [character(len=26) :: &
         'patch', 'strip', 'y_left_mm', 'y_right_mm', 'y_mm', 'half_length_mm', 'p0_MPa', &
@@ -69,7 +76,7 @@ module faststrip_command_rows_result_csv
     !> Names of the columns, in the order of `put_result`.
     character(len=*), parameter :: result_columns(*) = [character(len=26) :: &
         'status', figures(main_figures)%column, 'choice', figures(figure_strips_across)%column, &
-        'limitations', figures(wear_figures)%column]
+        'limitations', figures(wear_figures)%column, figures(stress_figures)%column]
 
 contains
 
@@ -101,6 +108,7 @@ contains
         call put_figures(writer, [figure_strips_across], values, known)
         call put_cell(writer, trim(limitation_words(status%limitations)))
         call put_figures(writer, wear_figures, values, known)
+        call put_figures(writer, stress_figures, values, known)
     end subroutine put_result
 
     !> The cells of some figures; of what is not known they are empty.

@@ -17,6 +17,7 @@ module faststrip_lab_grid_bench
     use faststrip_lab_grid_tang, only: bench_tang, bench_tang_most_elements
     use faststrip_lab_extremes, only: bench_extremes, extreme_parts
     use faststrip_lab_studies_rolling, only: bench_rolling
+    use faststrip_lab_studies_subsurface, only: bench_subsurface
     use faststrip_lab_grid_forces, only: bench_forces
     use faststrip_lab_studies_correction, only: bench_correction
     use faststrip_lab_grid_examples, only: bench_examples
@@ -95,6 +96,9 @@ module faststrip_lab_grid_bench
                 'errors and times of Kalker''s method in rolling against CONTACT, by its ' &
                 // 'scheme and by the second-order one, on 0.4 and 0.2 mm: the paper''s contacts ' &
                 // 'with either sign of the creepages, and 161 ellipses of 113 mm2'), &
+        bench_t('subsurface', '--rounds', &
+                'milliseconds of the stresses below a circle of up to 3000 elements, at 50 by ' &
+                // '50 by 30 points by transforms, and of the largest; how far they are off'), &
         bench_t('kalker', '--contacts --quick', &
                 'Kalker''s coefficients from TANG without sliding beside his table and ' &
                 // 'CONTACT, 19 aspect ratios by 3 of Poisson''s (two minutes)'), &
@@ -160,6 +164,8 @@ contains
             call bench_robust(file, contacts())
         case ('rolling')
             call bench_rolling(file, contacts())
+        case ('subsurface')
+            call bench_subsurface(file, option_integer(command, '--rounds', 3, least=1, most=1000))
         case ('kalker')
             call bench_kalker(file, contacts(), quick)
         case ('estimates')
@@ -242,7 +248,8 @@ contains
         command%options = [ &
             option_t('-o', 'FILE', 'write the CSV there (default stdout)', writes=.true.), &
             option_t('--rounds', 'N', &
-                     'how often all is timed, 1 to 1000 (default 21; host, tang 3)'), &
+                     'how often all is timed, 1 to 1000' // nl &
+                     // '(default 21; host, tang, subsurface 3)'), &
             option_t('--contacts', 'FOLDER', 'the contacts (default reference/contact)', &
                      reads=.true.), &
             option_t('--case', 'FILE', 'a wheelset (default example/cases/worn_wheel.nml)', &

@@ -21,7 +21,7 @@ module faststrip_contact_auto
     use faststrip_normal_strips, only: contact_strips_t, copy_strips, last_of_patch, usual_strips
     use faststrip_tangential_force_errors, only: estimate_force_errors, &
                                                  errors_of_fitted
-    use faststrip_contact_case, only: contact_case_t, wants_elements
+    use faststrip_contact_case, only: contact_case_t, keeps_elements
     use faststrip_contact_clock, only: now, since, lap_t, start_lap, add_lap
     use faststrip_contact_grids, only: plan_of_finer, follow_on, most_grids
     use faststrip_contact_method, only: workspace_t, contact_result_t, normal_method_of, &
@@ -566,7 +566,8 @@ contains
         if (status%code == st_more_strips .or. status%code == st_fewer_strips) &
             call clear_status(status)
         search%case%methods = workspace%steps%steps(workspace%steps%best)%methods
-        search%case%asked%field = wants_elements(case%asked)
+        search%case%asked%field = case%asked%field .or. case%asked%temperatures
+        search%case%asked%subsurface = case%asked%subsurface
         if (.not. needs_forces(search%wanted%target)) then
             search%case%methods%tangential = case%methods%tangential
             search%case%methods%points_per_strip = case%methods%points_per_strip
@@ -578,8 +579,7 @@ contains
             search%case%methods%dy_is_given = case%methods%dy_is_given
             search%case%methods%max_elements = case%methods%max_elements
             call add_best_forces(search, workspace, status)
-        else if (wants_elements(case%asked) .or. wants_strip_forces(case) &
-                 .and. .not. search%is_best) then
+        else if (keeps_elements(case) .or. wants_strip_forces(case) .and. .not. search%is_best) then
             call add_best_forces(search, workspace, status)
         end if
         if (is_error(status)) return

@@ -11,12 +11,12 @@ module faststrip_contact_case
     use faststrip_normal_strips, only: usual_strip_tolerance
     use faststrip_normal_types, only: demand_t
     use faststrip_tangential_wear_law, only: wear_law_t
-    use faststrip_contact_methods, only: contact_methods_t
+    use faststrip_contact_methods, only: contact_methods_t, tangential_none
     use faststrip_contact_wanted, only: wanted_t
     implicit none
     private
 
-    public :: contact_case_t, contact_terms_t, asked_t, given_forces_t, wants_elements
+    public :: contact_case_t, contact_terms_t, asked_t, given_forces_t, keeps_elements
 
     !> What a solution shall hold besides its figures.
     type :: asked_t
@@ -26,6 +26,10 @@ module faststrip_contact_case
                                           !! `strip_forces`; only the march along strips has them
         logical :: times = .false.        !! time of either problem, in the result's `times`
         logical :: temperatures = .false. !! of both surfaces, in the result's `flash` and the field
+        logical :: subsurface = .false.   !! the largest von Mises stress of the rail, in the
+                                          !! result's `stress_peak`, and what stresses follow from,
+                                          !! in the workspace's `loads`; see
+                                          !! `reserve_contact_loads`
     end type asked_t
 
     !> Forces that a contact has to carry, in place of creepages, which are found.
@@ -75,10 +79,11 @@ module faststrip_contact_case
 
 contains
 
-    !> Does a solution need elements?
-    pure logical function wants_elements(asked)
-        type(asked_t), intent(in) :: asked !! of a case
+    !> Shall the solution keep its elements? Stresses need them too, where there are tractions.
+    pure logical function keeps_elements(case)
+        class(contact_terms_t), intent(in) :: case !! as the caller set it
 
-        wants_elements = asked%field .or. asked%temperatures
-    end function wants_elements
+        keeps_elements = case%asked%field .or. case%asked%temperatures .or. &
+                         case%asked%subsurface .and. case%methods%tangential /= tangential_none
+    end function keeps_elements
 end module faststrip_contact_case

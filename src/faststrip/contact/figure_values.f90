@@ -4,14 +4,15 @@ module faststrip_contact_figure_values
     use faststrip_contact_figures, only: figure_est_err_area, figure_est_err_ceta, &
                                          figure_est_err_cksi, figure_est_err_fx, &
                                          figure_est_err_mz, figure_est_err_penetration, &
+                                         figure_est_err_von_mises, &
                                          figure_fatigue_index, figure_flash_temperature, &
                                          figure_friction_power, figure_fx, &
                                          figure_gap_change, figure_overlap_outside, &
                                          figure_residual_inside, figure_stick_fraction, &
                                          figure_strips_across, figure_t_gamma, &
                                          figure_t_gamma_per_area, figure_temperature_y, &
-                                         figure_wear_mass, &
-                                         figure_wear_volume, n_figures
+                                         figure_von_mises_max, &
+                                         figure_wear_mass, figure_wear_volume, n_figures
     use faststrip_contact_method, only: contact_result_t
     implicit none
     private
@@ -31,7 +32,7 @@ contains
 
         associate (normal => result%normal, forces => result%tangential, &
                    errors => result%normal_errors, force_errors => result%force_errors, &
-                   wear => result%wear, flash => result%flash)
+                   wear => result%wear, flash => result%flash, peak => result%stress_peak)
             values = [normal%load, normal%penetration, normal%area, normal%pmax, normal%y_min, &
                       normal%y_max, normal%x_max, forces%fx, forces%fy, forces%mz, &
                       forces%friction_power, forces%stick_fraction, real(normal%n_patches, wp), &
@@ -42,7 +43,8 @@ contains
                       result%times%normal_us, result%times%tangential_us, wear%t_gamma, &
                       wear%t_gamma_spin, wear%t_gamma_per_area, wear%fatigue_index, &
                       wear%wear%mass, wear%wear%volume, result%creepage_errors, flash%rise, &
-                      flash%temperature, flash%x, flash%y]
+                      flash%temperature, flash%x, flash%y, peak%von_mises, peak%x, peak%y, &
+                      peak%z, peak%est_err]
             known = .true.
             known(figure_fx:figure_friction_power) = result%has_forces
             known(figure_stick_fraction) = result%knows_stick
@@ -56,6 +58,7 @@ contains
             known(figure_fatigue_index) = wear%knows_fatigue
             known(figure_wear_mass:figure_wear_volume) = wear%knows_wear
             known(figure_flash_temperature:figure_temperature_y) = result%knows_temperatures
+            known(figure_von_mises_max:figure_est_err_von_mises) = peak%is_known
         end associate
     end subroutine find_figures
 end module faststrip_contact_figure_values

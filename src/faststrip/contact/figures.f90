@@ -34,7 +34,10 @@ module faststrip_contact_figures
                                   figure_wear_mass = 31, figure_wear_volume = 32, &
                                   figure_est_err_cksi = 33, figure_est_err_ceta = 34, &
                                   figure_flash_temperature = 35, figure_temperature_max = 36, &
-                                  figure_temperature_x = 37, figure_temperature_y = 38
+                                  figure_temperature_x = 37, figure_temperature_y = 38, &
+                                  figure_von_mises_max = 39, figure_von_mises_x = 40, &
+                                  figure_von_mises_y = 41, figure_von_mises_z = 42, &
+                                  figure_est_err_von_mises = 43
 
     !> All of them.
     type(figure_t), parameter :: figures(*) = [ &
@@ -103,7 +106,15 @@ module faststrip_contact_figures
         figure_t('temperature_x', 'temperature_x_mm', needs='temperatures', &
                  meaning='x of the largest temperature'), &
         figure_t('temperature_y', 'temperature_y_mm', needs='temperatures', &
-                 meaning='y of the largest temperature')]
+                 meaning='y of the largest temperature'), &
+        figure_t('von_mises_max', 'von_mises_max_MPa', needs='subsurface', &
+                 meaning='largest von Mises stress of the rail'), &
+        figure_t('von_mises_x', 'von_mises_x_mm', needs='subsurface', meaning='where it is, x'), &
+        figure_t('von_mises_y', 'von_mises_y_mm', needs='subsurface', meaning='where it is, y'), &
+        figure_t('von_mises_z', 'von_mises_z_mm', needs='subsurface', &
+                 meaning='where it is, depth'), &
+        figure_t('est_err_von_mises', 'est_err_von_mises', needs='subsurface', &
+                 meaning='estimated relative error of it')]
 
     !> How many there are.
     integer, parameter :: n_figures = size(figures)

@@ -6,7 +6,7 @@ module faststrip_contact_grids
     use faststrip_normal_strips, only: contact_strips_t, last_of_patch
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_types, only: tangential_field_t, strip_forces_t
-    use faststrip_contact_case, only: contact_case_t, wants_elements
+    use faststrip_contact_case, only: contact_case_t, keeps_elements
     use faststrip_contact_clock, only: now, since
     use faststrip_contact_method, only: workspace_t, contact_result_t, normal_method_t, &
                                         normal_method_of, tangential_method_of
@@ -187,7 +187,7 @@ contains
                 workspace%steps%estimate = step%estimate
                 workspace%steps%is_met = step%estimate <= wanted%tolerance
                 strips = workspace%strips
-                if (wants_elements(case%asked)) field = workspace%field
+                if (keeps_elements(case)) field = workspace%field
                 if (steps_case%asked%strip_forces) strip_forces = workspace%strip_forces
                 status = tried
                 call name_target(wanted, workspace%steps%estimate, &
@@ -201,7 +201,7 @@ contains
         workspace%solved_by = merge(normal_norm, solved_by, is_taken)
         workspace%is_ellipse = workspace%solved_by == normal_hertz
         if (.not. is_taken) return
-        if (wants_elements(case%asked)) workspace%field = field
+        if (keeps_elements(case)) workspace%field = field
         if (steps_case%asked%strip_forces) workspace%strip_forces = strip_forces
     end subroutine follow_on
 
@@ -257,7 +257,8 @@ contains
             step%methods = methods
         end associate
         step%across = nint(grid%across)
-        steps_case%asked%field = wants_elements(case%asked)
+        steps_case%asked%field = case%asked%field .or. case%asked%temperatures
+        steps_case%asked%subsurface = case%asked%subsurface
         before = now()
         call find_pressures(workspace, steps_case, normal_method_of(workspace, normal_norm), &
                             trial, status)

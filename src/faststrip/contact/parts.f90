@@ -14,7 +14,7 @@ module faststrip_contact_parts
     use faststrip_normal_limitations, only: check_resolution
     use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_force_errors, only: force_errors_t
-    use faststrip_contact_case, only: contact_case_t, wants_elements
+    use faststrip_contact_case, only: contact_case_t, keeps_elements
     use faststrip_contact_clock, only: lap_t, start_lap, add_lap
     use faststrip_contact_cut, only: solve_motion
     use faststrip_contact_given_forces, only: check_given_forces, solve_given_forces, &
@@ -266,7 +266,7 @@ contains
         if (is_error(status)) return
         if (workspace%solved_by == 0) then
             call set_status(status, st_bad_argument, 'no normal solution in the workspace')
-        else if (wants_elements(case%asked) .and. .not. about%gives_elements) then
+        else if (keeps_elements(case) .and. .not. about%gives_elements) then
             call refuse_elements(about, status)
         end if
     end subroutine check_forces

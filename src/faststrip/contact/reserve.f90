@@ -1,12 +1,13 @@
 !> Memory of a contact's workspace: the only allocation.
 module faststrip_contact_reserve
     use, intrinsic :: iso_fortran_env, only: int64
-    use faststrip_base_status, only: status_t, set_status, is_error, count_text, &
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_bad_argument, st_workspace_too_small
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_normal_strip, only: strips_auto_most
     use faststrip_normal_strip_patches, only: max_patches
     use faststrip_normal_strips, only: reserve_strips
+    use faststrip_stress_loads, only: reserve_loads
     use faststrip_tangential_types, only: reserve_field
     use faststrip_contact_method, only: workspace_t, normal_method_t, tangential_method_t
     use faststrip_contact_method_capacity, only: strip_capacity, reserve_for_strips, &
@@ -17,7 +18,7 @@ module faststrip_contact_reserve
     implicit none
     private
 
-    public :: reserve_workspace, reserve_contact_field, most_gap_points
+    public :: reserve_workspace, reserve_contact_field, reserve_contact_loads, most_gap_points
 
     !> Most points of a gap.
     !> Tuned [points]. Origin: capacity.
@@ -75,7 +76,6 @@ contains
         class(normal_method_t), pointer :: normal
         class(tangential_method_t), pointer :: method
         integer(int64) :: elements
-        integer :: points
 
         call check_methods(workspace, methods, normal, method, status)
         if (is_error(status)) return
@@ -83,15 +83,47 @@ contains
             call refuse_elements(method%about, status)
             return
         end if
+        elements = element_capacity(methods)
+        call try_elements(elements, status)
+        if (.not. is_error(status)) call reserve_field(workspace%field, int(elements), status)
+    end subroutine reserve_contact_field
+
+    !> Allocate for what stresses below the surface follow from: the loads of a contact. Where there
+    !> is a tangential method they need the field too.
+    subroutine reserve_contact_loads(workspace, methods, status)
+        type(workspace_t), intent(inout) :: workspace    !! its loads are sized
+        type(contact_methods_t), intent(in) :: methods   !! checked
+        type(status_t), intent(out) :: status            !! `st_workspace_too_small`
+
+        integer(int64) :: elements
+
+        call clear_status(status)
+        elements = element_capacity(methods)
+        call try_elements(elements, status)
+        if (.not. is_error(status)) call reserve_loads(workspace%loads, int(elements), status)
+    end subroutine reserve_contact_loads
+
+    !> Room for the elements of all patches.
+    pure integer(int64) function element_capacity(methods)
+        type(contact_methods_t), intent(in) :: methods ! checked
+
+        integer :: points
+
         points = methods%points_per_strip
         if (methods%normal == normal_auto) points = max(points, strips_auto_most)
-        elements = max(int(strip_capacity(methods), int64)*points, &
-                       int(methods%fastsim_nx, int64)*methods%fastsim_ny*max_patches)
-        if (elements < huge(points)) then
+        element_capacity = max(int(strip_capacity(methods), int64)*points, &
+                               int(methods%fastsim_nx, int64)*methods%fastsim_ny*max_patches)
+    end function element_capacity
+
+    !> Is there memory for elements?
+    subroutine try_elements(elements, status)
+        integer(int64), intent(in) :: elements
+        type(status_t), intent(inout) :: status ! gets `st_workspace_too_small`
+
+        if (elements < huge(0)) then
             call try_memory(per_element*elements, 'field', status)
         else
             call set_status(status, st_workspace_too_small, 'not enough memory for a field')
         end if
-        if (.not. is_error(status)) call reserve_field(workspace%field, int(elements), status)
-    end subroutine reserve_contact_field
+    end subroutine try_elements
 end module faststrip_contact_reserve

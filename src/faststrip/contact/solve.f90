@@ -18,6 +18,7 @@ module faststrip_contact_solve
                                         tangential_method_t
     use faststrip_contact_method_capacity, only: ellipse_strips
     use faststrip_contact_method_heat, only: find_heat
+    use faststrip_contact_method_loads, only: find_stress_peak
     use faststrip_contact_methods, only: contact_methods_t, normal_hertz, tangential_none
     use faststrip_contact_parts, only: check_methods, check_contact, set_case_gap, &
                                        find_normal_method, find_tangential_method, &
@@ -109,7 +110,7 @@ contains
         type(status_t), intent(out) :: status
             !! those of `strip_solve`, `hertz_solve_gap`, `replace_by_ellipses`,
             !! `faststrip_tangential_solve`, `fastsim_solve`, `check_material`, `check_gap`,
-            !! `solve_auto`, `smooth_gap`, `find_heat`; `st_beyond_yield`
+            !! `solve_auto`, `smooth_gap`, `find_heat`, `take_loads`; `st_beyond_yield`
 
         class(normal_method_t), pointer :: normal
         class(tangential_method_t), pointer :: tangential
@@ -136,6 +137,8 @@ contains
             call solve_auto(workspace, case, tangential, result, status)
         end if
         if (.not. is_error(status)) call find_heat(workspace, case, result, status)
+        if (case%asked%subsurface .and. .not. is_error(status)) &
+            call find_stress_peak(workspace, case, result, status)
         if (is_error(status)) then
             result = contact_result_t()
         else
@@ -173,6 +176,7 @@ contains
         call hold_environment(environment)
         call check_methods(workspace, case%methods, normal, tangential, status)
         if (.not. is_error(status)) call add_forces(workspace, case, tangential, result, status)
+        if (case%asked%subsurface) call find_stress_peak(workspace, case, result, status)
         if (.not. is_error(status)) call find_wear(workspace, case, result)
         if (.not. is_error(status)) call find_heat(workspace, case, result, status)
         call restore_environment(environment)

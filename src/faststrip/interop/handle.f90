@@ -11,10 +11,11 @@ module faststrip_interop_handle
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
-    use faststrip_contact_methods, only: contact_methods_t
+    use faststrip_contact_methods, only: contact_methods_t, tangential_none
     use faststrip_contact_plausible, only: doubts_t, gap_size_t, case_names_t, gap_size, &
                                            find_doubts, doubt_pressure
-    use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
+    use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field, &
+                                         reserve_contact_loads
     use faststrip_contact_derivatives, only: find_contact_derivatives
     use faststrip_contact_solve, only: solve_contact, set_contact_gap
     use faststrip_interop_register, only: enter_register, leave_register, look_up_register, &
@@ -43,7 +44,8 @@ module faststrip_interop_handle
 contains
 
     !> Make a handle with capacity for methods, gaps of up to `max_points` points and, if wanted,
-    !> the elements. The one allocation.
+    !> the elements, from which stresses follow; without tractions these need none. The one
+    !> allocation.
     subroutine new_handle(methods, max_points, with_field, number, status)
         type(contact_methods_t), intent(in) :: methods !! what will be asked of it
         integer, intent(in) :: max_points              !! points of a gap
@@ -64,6 +66,8 @@ contains
         call reserve_workspace(handle%workspace, methods, max_points, status)
         if (with_field .and. .not. is_error(status)) &
             call reserve_contact_field(handle%workspace, methods, status)
+        if ((with_field .or. methods%tangential == tangential_none) .and. .not. is_error(status)) &
+            call reserve_contact_loads(handle%workspace, methods, status)
         if (.not. is_error(status)) &
             call enter_register(c_loc(handle), kind_contact, number, status)
         if (is_error(status)) deallocate (handle)

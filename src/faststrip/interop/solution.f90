@@ -82,7 +82,7 @@ contains
             sy = field%sy(:n)
             state = field%state(:n)
         end associate
-        call mirror_elements(mirror%x, mirror%y, x, y, area, pn, px, py, sx, sy, state)
+        call mirror_elements([mirror%x, mirror%y], x, y, area, pn, px, py, sx, sy, state)
     end subroutine read_elements
 
     !> Copy what the first strips of the last contact transmit, as many as the arrays are long.

@@ -10,7 +10,7 @@ module faststrip_interop_wheelset_handle
     use faststrip_interop_solution, only: mirror_t
     use faststrip_normal_cells_lattice, only: lattice_workspace_t, lend_elements
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_contact_case, only: wants_elements
+    use faststrip_contact_case, only: keeps_elements
     use faststrip_contact_methods, only: contact_methods_t
     use faststrip_contact_plausible, only: doubts_t, case_names_t, add_doubt, doubt_material, &
                                            doubt_pressure
@@ -153,7 +153,7 @@ contains
         end do
         associate (one => from%model%case, other => to%model%case)
             are_alike = are_alike .and. all(numbers_of(one%methods) == numbers_of(other%methods)) &
-                        .and. (wants_elements(one%asked) .eqv. wants_elements(other%asked))
+                        .and. (keeps_elements(one) .eqv. keeps_elements(other))
         end associate
     end function are_alike
 

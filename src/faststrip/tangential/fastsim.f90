@@ -366,8 +366,8 @@ contains
                 result%fy = result%fy + cell*py
                 result%mz = result%mz + cell*(x*py - (y0 + y)*px)
                 result%friction_power = result%friction_power - cell*(px*sx + py*sy)
-                if (present(field)) call add_element(field, x, y0 + y, cell, pmax*sqrt(place), &
-                                                     px, py, sx, sy, state)
+                if (present(field)) call add_element(field, x, y0 + y, [h, cell], &
+                                                     pmax*sqrt(place), px, py, sx, sy, state)
             end do
         end do
     end subroutine add_ellipse

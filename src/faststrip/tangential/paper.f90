@@ -349,7 +349,7 @@ contains
             if (present(field)) then
                 x = xe*total%a
                 call add_element( &
-                    field, x, y, cell*total%a*total%b, &
+                    field, x, y, [spacing*total%a, cell*total%a*total%b], &
                     strips%p0(i)*sqrt(max(1.0_wp - (x/strips%half_length(i))**2, 0.0_wp)), &
                     px*stress/(total%a*total%b), py*stress/(total%a*total%b), slip_x, slip_y, &
                     state)

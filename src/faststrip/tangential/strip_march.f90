@@ -315,7 +315,8 @@ contains
                                                          + (block%rigid_y(k) + x*creepage%cphi)*py)
                     lambda = max(heat, 0.0_wp)/(length*(px*px + py*py))
                 end if
-                call put_element(field, field%n + (k - 1)*n + i, x, block%y(k), block%cell(k), &
+                call put_element(field, field%n + (k - 1)*n + i, x, block%y(k), &
+                                 [length, block%cell(k)], &
                                  strips%p0(block%strip(k))*sqrt(1.0_wp - t*t), px, py, &
                                  -lambda*px, -lambda*py, state)
             end associate

@@ -37,6 +37,7 @@ module faststrip_tangential_types
         integer :: n = 0                 !! number of elements
         real(wp), allocatable :: x(:)    !! middle of the element, mm
         real(wp), allocatable :: y(:)    !! middle of the element, mm
+        real(wp), allocatable :: dx(:)   !! side of the element along x, mm
         real(wp), allocatable :: area(:) !! area of the element, mm^2
         real(wp), allocatable :: pn(:)   !! pressure, MPa
         real(wp), allocatable :: px(:)   !! traction on the rail along x, MPa
@@ -109,13 +110,13 @@ contains
         end if
         if (allocated(field%x)) then
             if (size(field%x) == capacity) return
-            deallocate (field%x, field%y, field%area, field%pn, field%px, field%py, field%sx, &
-                        field%sy, field%state, field%temperature)
+            deallocate (field%x, field%y, field%dx, field%area, field%pn, field%px, field%py, &
+                        field%sx, field%sy, field%state, field%temperature)
         end if
-        allocate (field%x(capacity), field%y(capacity), field%area(capacity), &
-                  field%pn(capacity), field%px(capacity), field%py(capacity), &
-                  field%sx(capacity), field%sy(capacity), field%temperature(capacity), &
-                  source=0.0_wp)
+        allocate (field%x(capacity), field%y(capacity), field%dx(capacity), &
+                  field%area(capacity), field%pn(capacity), field%px(capacity), &
+                  field%py(capacity), field%sx(capacity), field%sy(capacity), &
+                  field%temperature(capacity), source=0.0_wp)
         allocate (field%state(capacity), source=0)
     end subroutine reserve_field
 
@@ -136,25 +137,25 @@ contains
     end subroutine empty_field
 
     !> Put one more element into a field that has the capacity.
-    pure subroutine add_element(field, x, y, area, pn, px, py, sx, sy, state)
+    pure subroutine add_element(field, x, y, size, pn, px, py, sx, sy, state)
         type(tangential_field_t), intent(inout) :: field !! emptied by `empty_field`
         real(wp), intent(in) :: x, y   !! middle of the element, mm
-        real(wp), intent(in) :: area   !! mm^2
+        real(wp), intent(in) :: size(2) !! side along x, mm, and area, mm^2
         real(wp), intent(in) :: pn     !! pressure, MPa
         real(wp), intent(in) :: px, py !! traction on the rail, MPa
         real(wp), intent(in) :: sx, sy !! slip over rolling speed
         integer, intent(in) :: state   !! `state_adhesion` or `state_slip`
 
         field%n = field%n + 1
-        call put_element(field, field%n, x, y, area, pn, px, py, sx, sy, state)
+        call put_element(field, field%n, x, y, size, pn, px, py, sx, sy, state)
     end subroutine add_element
 
     !> Put an element into a place of a field.
-    pure subroutine put_element(field, i, x, y, area, pn, px, py, sx, sy, state)
+    pure subroutine put_element(field, i, x, y, size, pn, px, py, sx, sy, state)
         type(tangential_field_t), intent(inout) :: field !! with the capacity
         integer, intent(in) :: i       !! place, 1 to n
         real(wp), intent(in) :: x, y   !! middle of the element, mm
-        real(wp), intent(in) :: area   !! mm^2
+        real(wp), intent(in) :: size(2) !! side along x, mm, and area, mm^2
         real(wp), intent(in) :: pn     !! pressure, MPa
         real(wp), intent(in) :: px, py !! traction on the rail, MPa
         real(wp), intent(in) :: sx, sy !! slip over rolling speed
@@ -162,7 +163,8 @@ contains
 
         field%x(i) = x
         field%y(i) = y
-        field%area(i) = area
+        field%dx(i) = size(1)
+        field%area(i) = size(2)
         field%pn(i) = pn
         field%px(i) = px
         field%py(i) = py

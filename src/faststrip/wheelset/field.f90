@@ -42,6 +42,7 @@ contains
             if (n == 0) return
             field%x(:n) = from%x(:n)
             field%y(:n) = from%y(:n)
+            field%dx(:n) = from%dx(:n)
             field%area(:n) = from%area(:n)
             field%pn(:n) = from%pn(:n)
             field%px(:n) = from%px(:n)
@@ -51,31 +52,33 @@ contains
             field%state(:n) = from%state(:n)
             field%temperature(:n) = from%temperature(:n)
             field%has_temperature = from%has_temperature
-            call mirror_elements(workspace%is_reversed, side == side_left, field%x(:n), &
+            call mirror_elements([workspace%is_reversed, side == side_left], field%x(:n), &
                                  field%y(:n), field%area(:n), field%pn(:n), field%px(:n), &
-                                 field%py(:n), field%sx(:n), field%sy(:n), field%state(:n))
+                                 field%py(:n), field%sx(:n), field%sy(:n), field%state(:n), &
+                                 field%dx(:n))
             if (side == side_left) call mirror_values(field%y(:n), field%temperature(:n))
         end associate
     end subroutine find_wheel_field
 
     !> Elements in a mirror. One in y puts the last row first; each begins where it did.
-    subroutine mirror_elements(in_x, in_y, x, y, area, pn, px, py, sx, sy, state)
-        logical, intent(in) :: in_x, in_y       !! what becomes its negative
+    subroutine mirror_elements(mirrored, x, y, area, pn, px, py, sx, sy, state, dx)
+        logical, intent(in) :: mirrored(2)      !! do x and y become their negatives?
         real(wp), intent(inout) :: x(:), y(:)   !! middle of the element, mm
         real(wp), intent(inout) :: area(:)      !! mm^2
         real(wp), intent(inout) :: pn(:)        !! pressure, MPa
         real(wp), intent(inout) :: px(:), py(:) !! traction on the rail, MPa
         real(wp), intent(inout) :: sx(:), sy(:) !! slip over rolling speed
         integer, intent(inout) :: state(:)      !! adhesion or slip
+        real(wp), intent(inout), optional :: dx(:) !! mm
 
         integer :: first, last
 
-        if (in_x) then
+        if (mirrored(1)) then
             x = -x
             px = -px
             sx = -sx
         end if
-        if (.not. in_y) return
+        if (.not. mirrored(2)) return
         y = -y
         py = -py
         sy = -sy
@@ -101,6 +104,7 @@ contains
             call reverse(sx(i:j))
             call reverse(sy(i:j))
             call reverse(state(i:j))
+            if (present(dx)) call reverse(dx(i:j))
         end subroutine turn_round
     end subroutine mirror_elements
 

@@ -10,7 +10,7 @@ module faststrip_wheelset_solve
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      join_limitations, number_text, st_bad_argument, &
                                      st_workspace_too_small, st_target_missed
-    use faststrip_contact_case, only: contact_case_t, wants_elements
+    use faststrip_contact_case, only: contact_case_t, keeps_elements
     use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
     use faststrip_geometry_gap, only: gap_t
@@ -164,6 +164,10 @@ contains
                 if (.not. allocated(pair%y)) then
                     call set_status(status, st_bad_argument, 'the wheelset must be made first')
                     return
+                else if (model%case%asked%subsurface) then
+                    call set_status(status, st_bad_argument, 'stresses below the surface are ' // &
+                                    'those of one contact, not of a wheelset')
+                    return
                 end if
                 wheel%n = 0
                 wheel%approach = 0.0_wp
@@ -178,7 +182,7 @@ contains
                     if (is_error(status)) return
                     call reserve_workspace(wheel%contact(i), model%case%methods, size(pair%y), &
                                            status)
-                    if (wants_elements(model%case%asked) .and. .not. is_error(status)) &
+                    if (keeps_elements(model%case) .and. .not. is_error(status)) &
                         call reserve_contact_field(wheel%contact(i), model%case%methods, status)
                     if (is_error(status)) return
                 end do

@@ -419,8 +419,9 @@ contains
                 result%mz = result%mz + cell*(x*p(2) - y*p(1))
                 result%friction_power = result%friction_power - cell*(p(1)*s(1) + p(2)*s(2))
                 if (newton%sticks(i)) stuck = stuck + 1
-                if (present(field)) call add_element(field, x, y, cell, problem%pn(i), p(1), &
-                    p(2), s(1), s(2), merge(state_adhesion, state_slip, newton%sticks(i)))
+                if (present(field)) call add_element(field, x, y, [problem%dx, cell], &
+                    problem%pn(i), p(1), p(2), s(1), s(2), &
+                    merge(state_adhesion, state_slip, newton%sticks(i)))
             end associate
         end do
         result%stick_fraction = real(stuck, wp)/problem%n

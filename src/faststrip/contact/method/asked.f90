@@ -1,7 +1,7 @@
 !> Where a tangential method puts what a case asks for besides the sums.
 module faststrip_contact_method_asked
     use faststrip_tangential_types, only: tangential_field_t, strip_forces_t
-    use faststrip_contact_case, only: contact_case_t, wants_elements
+    use faststrip_contact_case, only: contact_case_t, keeps_elements
     use faststrip_contact_method, only: workspace_t
     implicit none
     private
@@ -10,14 +10,14 @@ module faststrip_contact_method_asked
 
 contains
 
-    !> The workspace's field if the case asks for it, else no target: an absent argument.
+    !> The workspace's field if the case needs it, else no target: an absent argument.
     function asked_field(workspace, case) result(field)
         type(workspace_t), intent(in), target :: workspace !! owns it
         type(contact_case_t), intent(in) :: case           !! may ask for it
         type(tangential_field_t), pointer :: field
 
         field => null()
-        if (wants_elements(case%asked)) field => workspace%field
+        if (keeps_elements(case)) field => workspace%field
     end function asked_field
 
     !> The workspace's sums over strips, likewise.

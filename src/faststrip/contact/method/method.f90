@@ -18,6 +18,8 @@ module faststrip_contact_method
     use faststrip_normal_strip, only: strip_workspace_t
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t
+    use faststrip_stress_loads, only: loads_t
+    use faststrip_stress_peak, only: peak_t
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_tangential_heat_flash, only: flash_t
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t
@@ -79,6 +81,7 @@ module faststrip_contact_method
         type(wear_figures_t) :: wear     !! if there are forces
         type(flash_t) :: flash           !! temperatures of the surfaces
         logical :: knows_temperatures = .false. !! are they known? If they were asked for
+        type(peak_t) :: stress_peak      !! largest von Mises stress of the rail, if asked for
         real(wp) :: gap_change = 0.0_wp  !! rms change of the gap by smoothing, mm
         type(times_t) :: times           !! if the case asks for them
     end type contact_result_t
@@ -123,6 +126,7 @@ module faststrip_contact_method
         type(friction_t) :: friction      !! of its forces; a table is one over the contact
         type(tangential_field_t) :: field !! its elements, if asked for; see `reserve_contact_field`
         type(strip_forces_t) :: strip_forces !! sums over its strips, if asked for
+        type(loads_t) :: loads            !! what its stresses follow from; see `take_loads`
         type(status_t) :: wear_status
             !! why there is no wear of the last contact in spite of a law; or ok
         type(strip_wear_t) :: strip_wear  !! of the last contact, if there is a law
