@@ -647,7 +647,7 @@ static void wheelsets_that_are_none(void)
     setup.size += 8;
     MAKES(FASTSTRIP_BAD_ARGUMENT, "the header is newer");
     setup.size -= 24;
-    MAKES(FASTSTRIP_BAD_ARGUMENT, "88 bytes that faststrip_default_wheelset sets, got 72");
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "96 bytes that faststrip_default_wheelset sets, got 80");
     setup.size += 16;
     setup.gauge = NAN;
     MAKES(FASTSTRIP_NOT_FINITE, "finite");
@@ -658,6 +658,9 @@ static void wheelsets_that_are_none(void)
     setup.speed_floor = -1.0;
     MAKES(FASTSTRIP_BAD_ARGUMENT, "floor of the speed");
     setup.speed_floor = 0.0;
+    setup.roller_radius = 20.0;
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "radius of the rollers must be above");
+    setup.roller_radius = 0.0;
     wheels[0].name = NULL;
     MAKES(FASTSTRIP_BAD_ARGUMENT, "the right wheel profile must have a name, or y and z");
     wheels[0].n = 3;

@@ -52,6 +52,16 @@ class Wheelset(ProgramTest):
         self.assertEqual(run.stderr, "faststrip: still: nothing moves: without slip there are no "
                          "friction forces\n")
 
+    def test_rollers_only_where_there_can_be_any(self):
+        self.write("rollers.nml", CASE.replace("'uic60'", "'uic60'\n  roller_radius_mm = 500"))
+        self.refused(1, "conicity", "rollers.nml", says=["&rail roller_radius_mm is for contact"])
+        self.refused(1, "lookup", "wheel", "rollers.nml", "-o", "table.fslt",
+                     says=["&rail roller_radius_mm must not be given"])
+        self.write("small.nml", CASE.replace("'uic60'", "'uic60'\n  roller_radius_mm = 20"))
+        self.write("states.csv", f"{HEADER}\non,right,0,0,0,1,,1e4\n")
+        self.refused(1, "wheelset", "small.nml", "--states", "states.csv",
+                     says=["radius of the rollers must be above the 38.", "got 20.0000 mm"])
+
     def test_the_manchester_benchmark(self):
         """As near as the benchmark's own grid lets judge, but at 5 mm, where the right wheel
         touches at tread and flange: which of them carries how much hangs on micrometres."""
