@@ -72,11 +72,11 @@ module faststrip_base_friction
         real(wp) :: flange_share = 1.0_wp       !! mu on the flange over that on the tread
         real(wp) :: tread_angle = 0.0_wp        !! contact angle up to which the tread's mu counts
         real(wp) :: flange_angle = 0.0_wp       !! and from which the flange's, rad
-        type(friction_table_t) :: table         !! static coefficient at places, in place of mu
         real(wp) :: hot_share = 1.0_wp          !! hot over cold value, 1e-6 to 1
         real(wp) :: cold_temperature = 0.0_wp   !! temperature up to which the cold value counts
         real(wp) :: hot_temperature = 0.0_wp    !! and from which the hot one, C
         type(heating_t) :: heat                 !! of the bodies, where that counts
+        type(friction_table_t) :: table         !! static coefficient at places, in place of mu
     end type friction_t
 
 contains
