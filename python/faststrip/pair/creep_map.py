@@ -35,6 +35,11 @@ class Placed(Shown):
     cphi: Array
 
 
+# Of a `ManyResult`, what `Placed` has not got.
+FIGURES = [one.name for one in fields(ManyResult)
+           if one.name not in {other.name for other in fields(Placed)}]
+
+
 @described
 @dataclass(frozen=True, repr=False)
 class CreepMap(ManyResult, Placed):
@@ -181,5 +186,5 @@ def creep_map(wheel: Body, rail: Body, y: float = 0.0, *,
     many = solve_many(gap, creepage=tuple(creepages), mu=number("mu", mu),
                       contact_angle=gap.angle, warm_start=True, threads=threads, **pair.solving)
     found: Tuple[Any, ...] = (y, gap.angle, gap.radius, tuple(NAMES[name] for name in rows),
-                              *creepages, *(getattr(many, one.name) for one in fields(ManyResult)))
+                              *creepages, *(getattr(many, name) for name in FIGURES))
     return CreepMap(*found)
