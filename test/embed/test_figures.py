@@ -318,9 +318,9 @@ class Figures(HostTest):
                 found["message", number, step, 0] = problem.message
                 for name in ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max",
                              "cksi", "ceta", "fx", "fy", "mz", "friction_power",
-                             "stick_fraction", "n_patches", "iterations", "n_elements", "strips_across", "is_estimated",
-                             "forces_are_estimated", "limitations", *ESTIMATES, *FORCE_ESTIMATES,
-                             *TAKEN):
+                             "stick_fraction", "n_patches", "iterations", "n_elements",
+                             "strips_across", "is_estimated", "forces_are_estimated",
+                             "limitations", *ESTIMATES, *FORCE_ESTIMATES, *TAKEN):
                     found[name, number, step, 0] = 0.0
             else:
                 self.assertEqual(result.word, self.wanted["word", 0, result.status, 0])
