@@ -141,6 +141,8 @@ static void solve(faststrip_workspace *workspace, faststrip_case *c, const doubl
     put("y_min", step, 0, r.y_min);
     put("y_max", step, 0, r.y_max);
     put("x_max", step, 0, r.x_max);
+    put("cksi", step, 0, r.cksi);
+    put("ceta", step, 0, r.ceta);
     put("fx", step, 0, r.fx);
     put("fy", step, 0, r.fy);
     put("mz", step, 0, r.mz);
@@ -160,6 +162,8 @@ static void solve(faststrip_workspace *workspace, faststrip_case *c, const doubl
     put("est_err_fx", step, 0, r.est_err_fx);
     put("est_err_fy", step, 0, r.est_err_fy);
     put("est_err_mz", step, 0, r.est_err_mz);
+    put("est_err_cksi", step, 0, r.est_err_cksi);
+    put("est_err_ceta", step, 0, r.est_err_ceta);
     put("limitations", step, 0, r.limitations);
     show_steps(workspace, &r, step);
     show_arrays(workspace, step);

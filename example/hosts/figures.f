@@ -108,7 +108,7 @@ C     The first step by FSCONT, the others by FSSOLV.
       SUBROUTINE SOLVE(IW, IOPT, D, IC, IS, N, Y, H, A)
       INTEGER IW(8), IOPT(9), IC, IS, N, INFO, LSET
       DOUBLE PRECISION D(10), Y(N), H(N), A(N), PAR(9), RES(14), ERR(7),
-     &  FERR(4)
+     &  FERR(4), CREEP(5)
       CHARACTER*256 TEXT
       PAR(1) = D(1)
       PAR(2) = D(2)
@@ -156,6 +156,12 @@ C     The first step by FSCONT, the others by FSSOLV.
       CALL PUT('est_err_fy', IC, IS, 0, FERR(2))
       CALL PUT('est_err_mz', IC, IS, 0, FERR(3))
       CALL PUT('forces_are_estimated', IC, IS, 0, FERR(4))
+      CALL FSCREP(IW, CREEP, INFO)
+      IF (INFO .NE. 0) STOP 10
+      CALL PUT('cksi', IC, IS, 0, CREEP(1))
+      CALL PUT('ceta', IC, IS, 0, CREEP(2))
+      CALL PUT('est_err_cksi', IC, IS, 0, CREEP(4))
+      CALL PUT('est_err_ceta', IC, IS, 0, CREEP(5))
       CALL FSLSET(IW, LSET, INFO)
       IF (INFO .NE. 0) STOP 10
       CALL PUT('limitations', IC, IS, 0, DBLE(LSET))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple
 
 from .._arguments import number, numbers, several
@@ -36,6 +36,11 @@ class Placed(Row):
     gap: Gap = field(repr=False, compare=False)
     strips: Strips = field(repr=False, compare=False)
     elements: Elements = field(repr=False, compare=False)
+
+
+# Of a `Result`, what `Placed` has not got.
+FIGURES = [one.name for one in fields(Result)
+           if one.name not in {other.name for other in fields(Placed)}]
 
 
 @described
@@ -175,5 +180,6 @@ def contact(wheel: Body, rail: Body, y: float = 0.0, *, vertical_load: Optional[
         strips, elements = solver.strips(), solver.elements()
     forces = map(float, track_forces(result.fy, result.load, gap.angle))
     found: Tuple[Any, ...] = (y, gap.angle, gap.radius, gap.y_rail, gap.y_wheel, *motion, *forces,
-                              gap, strips, elements, *result)
+                              gap, strips, elements,
+                              *(getattr(result, name) for name in FIGURES))
     return ContactResult(*found)

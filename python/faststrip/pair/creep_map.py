@@ -35,6 +35,11 @@ class Placed(Shown):
     cphi: Array
 
 
+# Of a `ManyResult`, what `Placed` has not got.
+FIGURES = [one.name for one in fields(ManyResult)
+           if one.name not in {other.name for other in fields(Placed)}]
+
+
 @described
 @dataclass(frozen=True, repr=False)
 class CreepMap(ManyResult, Placed):
@@ -182,5 +187,5 @@ def creep_map(wheel: Body, rail: Body, y: float = 0.0, *,
                       contact_angle=gap.angle, rail_y=gap.y_rail, warm_start=True, threads=threads,
                       **pair.solving)
     found: Tuple[Any, ...] = (y, gap.angle, gap.radius, tuple(NAMES[name] for name in rows),
-                              *creepages, *(getattr(many, one.name) for one in fields(ManyResult)))
+                              *creepages, *(getattr(many, name) for name in FIGURES))
     return CreepMap(*found)

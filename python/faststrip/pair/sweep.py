@@ -36,6 +36,9 @@ class Placed(Shown):
     force_z: Array
 
 
+PLACED = {one.name for one in fields(Placed)}
+
+
 @described
 @dataclass(frozen=True, repr=False)
 class SweepResult(ManyResult, Placed):
@@ -199,6 +202,8 @@ def _spread(many: ManyResult, there: npt.NDArray[np.intp],
     """Figures of the contacts that were solved, among those without a gap."""
     spread: Dict[str, Any] = {}
     for one in fields(ManyResult)[:-1]:
+        if one.name in PLACED:
+            continue
         values = getattr(many, one.name)
         nothing = np.nan if values.dtype == np.float64 else 0
         spread[one.name] = np.full(len(problems), nothing, dtype=values.dtype)
