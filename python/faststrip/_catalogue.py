@@ -156,7 +156,12 @@ class Case(ctypes.Structure):
         *members(c_void_p, "mu_at", "mu_table"),
         *members(c_double, "rail_y"),
         *members(c_int, "fx_is_given", "fy_is_given"),
-        *members(c_double, "given_fx", "given_fy"),
+        *members(c_double, "given_fx", "given_fy", "hot_share", "cold_temperature",
+                 "hot_temperature"),
+        *members(c_int, "with_temperatures"),
+        *members(c_double, "conductivity_wheel", "conductivity_rail", "heat_capacity_wheel",
+                 "heat_capacity_rail", "density_wheel", "density_rail", "temperature_wheel",
+                 "temperature_rail"),
     ]
 
 

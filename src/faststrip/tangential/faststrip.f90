@@ -153,9 +153,9 @@ contains
             !! filled when present; needs capacity for n strips
         logical, intent(in), optional :: with_fit !! corrected (S10)? default true
         type(friction_t), intent(in), optional :: friction
-            !! how mu falls with slip and temperature (S12), and a table over y in place of mu, which
-            !! is then its mean (S13); of its other parts only the factor of the initial slope,
-            !! which the material has already, counts (S14)
+            !! how mu falls with slip and temperature (S12), and a table over y in place of mu,
+            !! which is then its mean (S13); of its other parts only the factor of the initial
+            !! slope, which the material has already, counts (S14)
 
         type(patch_rolling_t) :: rolling
         type(march_sums_t) :: sums

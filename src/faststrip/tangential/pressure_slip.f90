@@ -35,11 +35,13 @@ module faststrip_tangential_pressure_slip
     ! Given: Chebyshev's nodes.
     real(wp), parameter :: node(n_nodes) = [(cos(pi*(2*m - 1)/(2*n_nodes)), m=1, n_nodes)]
 
-    ! By how much the bedding of springs is too stiff for this slip, over a/b.
-    ! Tuned [1]. Origin: TANG's force in full adhesion on ellipses of these a/b, plane strain
-    ! (pi^2/8) at the first; between by the logarithm.
-    real(wp), parameter :: ratio(8) = [0.01_wp, 0.1_wp, 0.2_wp, 0.5_wp, 1.0_wp, 2.0_wp, 5.0_wp, 10.0_wp]
-    ! Tuned [1]. Origin: as the ratios.
+    ! Proportions a/b of ellipses.
+    ! Given: places of a table.
+    real(wp), parameter :: ratio(8) = [0.01_wp, 0.1_wp, 0.2_wp, 0.5_wp, 1.0_wp, 2.0_wp, 5.0_wp, &
+                                       10.0_wp]
+    ! By how much the bedding of springs is too stiff for this slip there.
+    ! Tuned [1]. Origin: TANG's force in full adhesion, plane strain (pi^2/8) at the first; between
+    ! by the logarithm.
     real(wp), parameter :: factor(8) = [1.234_wp, 1.307_wp, 1.322_wp, 1.351_wp, 1.377_wp, &
                                         1.397_wp, 1.414_wp, 1.418_wp]
     ! Slope of adhesion by the slip over the bound's, at which half of that is left: where the slip
