@@ -44,8 +44,8 @@ module faststrip_tangential_strip_march
     integer, parameter :: most_lanes = usual_strips + modulo(-usual_strips, lane_step)
 
     ! Strips marched side by side where friction falls: what heat they have had stands on the stack.
-    ! Tuned [strips]. Origin: capacity: half of the stack of a call.
-    integer, parameter :: falling_lanes = 4
+    ! Tuned [strips]. Origin: capacity: a quarter of the stack of a call.
+    integer, parameter :: falling_lanes = 2
 
     ! Added to what is divided by where it may be nothing; changes no digit.
     real(wp), parameter :: least = tiny(1.0_wp)
