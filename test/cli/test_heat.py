@@ -164,6 +164,8 @@ class Heat(ProgramTest):
                          hot.format(0.1, 200.0), method=method)
         self.refuses(["speed_mm_s", "must be given with &thermal"], "&thermal\n/\n",
                      moving(0.03, speed=0.0))
+        self.write("case.nml", gap_case(motion=moving(0.03), extra=hot.format(0.1, 200.0)))
+        self.refused(1, "contact", "case.nml", "--points-per-strip", 129, says=["at most 128"])
         self.refuses(["mu_hot", "speed_mm_s"], hot.format(0.1, 200.0), moving(0.03, speed=0.0))
         self.refuses(["mu_hot", "at most &material mu"], hot.format(0.5, 200.0))
         self.refuses(["hot_temperature_C", "above cold_temperature_C"], hot.format(0.1, 50.0))

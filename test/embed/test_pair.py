@@ -247,6 +247,8 @@ class Pair(HostTest):
         gap = f.profile_gap("s1002", "60e1")
         solver.set_gap(gap)
         auto = solver.solve(load=1e5, creepage=(1e-3, 5e-4, 1e-4), tolerance=1e-9)
+        solver.solve(load=1e5, speed=2e4, thermal=f.Thermal())
+        flash = solver.flash()
         functions = f.contact_functions("s1002", "60e1", many)
         wheels = f.Wheelset().solve(load=1e5, y=6.6, speed=2e4, derivatives=True)
         law = f.WearLaw([(0.0, 1e9, 0.0, 5.0)], 7850.0)
@@ -254,7 +256,7 @@ class Pair(HostTest):
         looked = table(np.linspace(3.0, 8.0, 50), 4.0, 8e4, 0.3, 82000.0, (1e-3, 0.0, 0.0))
         random = np.random.default_rng(1).uniform(0.9, 1.1, (200, 30))
         results = [
-            auto, auto.steps[0], solver.strips(), solver.elements(), solver.wear(law),
+            flash, auto, auto.steps[0], solver.strips(), solver.elements(), solver.wear(law),
             solver.strip_wear(law), gap, functions, functions.conicity(np.linspace(0.5, 4.0, 99)),
             f.Profile(many, many, "wheel", "long/" * 99, "format", "message " * 99), wheels,
             wheels.contacts[0], looked,
@@ -269,7 +271,7 @@ class Pair(HostTest):
                 self.assertNotIn("\n", text)
                 self.assertTrue(text.startswith(type(result).__name__ + "("))
         # None is left out: what is not here is passed in.
-        inputs = {"Friction", "Material", "RailState", "WearLaw"}
+        inputs = {"Friction", "Material", "RailState", "Thermal", "WearLaw"}
         public = {name for name in f.__all__ if inspect.isclass(getattr(f, name))
                   and dataclasses.is_dataclass(getattr(f, name))}
         self.assertEqual(public - inputs, {type(result).__name__ for result in results})

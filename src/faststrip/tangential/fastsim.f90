@@ -52,7 +52,7 @@ module faststrip_tangential_fastsim
                                        falling_share, hot_share
     use faststrip_base_friction_table, only: mean_mu_between
     use faststrip_normal_simple_hertz, only: hertz_t
-    use faststrip_tangential_heat_sources, only: weight, rise_ahead, most_along
+    use faststrip_tangential_heat_sources, only: rise_ahead, most_along, weight_of_itself
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_motion, only: check_motion, check_ellipse
@@ -262,7 +262,7 @@ contains
         call check_friction(variant%friction, status)
         if (is_error(status) .or. .not. falls_when_hot(variant%friction)) return
         if (nx > most_along) call set_status(status, st_out_of_range, 'friction that falls ' // &
-            'with temperature takes at most 5000 elements along, got ' // count_text(nx))
+            'with temperature takes at most 1000 elements along, got ' // count_text(nx))
     end subroutine check_variant
 
     pure type(fastsim_variant_t) function chosen(variant)
@@ -351,7 +351,7 @@ contains
                                                                      l2*(py - ahead_y))/step)/left
                         if (is_hot) fall = fall*hot_share(variant%friction, &
                             variant%friction%heat%shared + gain*rise_ahead(heat(:j - 1)), &
-                            gain*weight(0)*fall*max((px*l1*(ahead_x - px) &
+                            gain*weight_of_itself*fall*max((px*l1*(ahead_x - px) &
                                                      + py*l2*(ahead_y - py))/step, 0.0_wp))
                         left = left*fall
                         px = px*fall

@@ -86,7 +86,7 @@ module faststrip_tangential_faststrip
                                      st_workspace_too_small
     use faststrip_base_material, only: material_t, check_material, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_base_friction, only: friction_t, check_friction, falls
+    use faststrip_base_friction, only: friction_t, check_friction, falls, falls_when_hot
     use faststrip_base_friction_table, only: mu_at
     use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
@@ -104,7 +104,8 @@ module faststrip_tangential_faststrip
                                               lateral_stiffness
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
     use faststrip_tangential_pressure_slip, only: slip_by_pressure
-    use faststrip_tangential_strip_march, only: rolling_t, march_sums_t, march_strips, strip_mu
+    use faststrip_tangential_strip_march, only: rolling_t, march_sums_t, march_strips, strip_mu, &
+                                                most_hot_points
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           empty_field, field_power, most_points, stick_share
     implicit none
@@ -192,6 +193,12 @@ contains
             rolling%friction = friction
             ! A softer surface is no softer under pressure.
             rolling%pressure_slip = rolling%pressure_slip*friction%slope_factor
+        end if
+        if (falls_when_hot(rolling%friction) .and. points_per_strip > most_hot_points) then
+            call set_status(status, st_out_of_range, 'friction that falls with temperature ' // &
+                            'takes at most 128 points per strip, got ' // &
+                            count_text(points_per_strip))
+            return
         end if
         if (present(with_fit)) rolling%is_corrected = with_fit
         if (rolling%is_corrected) then

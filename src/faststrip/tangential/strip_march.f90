@@ -18,7 +18,7 @@ module faststrip_tangential_strip_march
     implicit none
     private
 
-    public :: rolling_t, march_sums_t, march_strips, strip_mu
+    public :: rolling_t, march_sums_t, march_strips, strip_mu, most_hot_points
 
     ! Tuned [1]. Origin: errors against CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: slip_onset = 2.0_wp      ! S4
@@ -48,9 +48,10 @@ module faststrip_tangential_strip_march
     ! Strips marched side by side: a patch of the usual ones at once.
     integer, parameter :: most_lanes = usual_strips + modulo(-usual_strips, lane_step)
 
-    ! Strips marched side by side where friction falls: what heat they have had stands on the stack.
-    ! Tuned [strips]. Origin: capacity: half of the stack of a call.
-    integer, parameter :: falling_lanes = 4
+    !> Points along a strip where friction falls with temperature: the heat of the steps stands on
+    !> the stack, of one strip at a time.
+    !> Tuned [points]. Origin: capacity.
+    integer, parameter :: most_hot_points = 128
 
     ! Added to what is divided by where it may be nothing; changes no digit.
     real(wp), parameter :: least = tiny(1.0_wp)
@@ -90,7 +91,7 @@ module faststrip_tangential_strip_march
         real(wp), dimension(most_lanes) :: static_bound   !! mu p0, MPa
         real(wp), dimension(most_lanes) :: left           !! of the static coefficient
         real(wp), dimension(most_lanes) :: bound          !! over mu p0, sum over the elements
-        real(wp), dimension(most_points, falling_lanes) :: heat !! of the steps, N/mm^2
+        real(wp) :: heat(most_hot_points) !! of the steps of its strip, if there is one, N/mm^2
     end type fall_t
 
 contains
@@ -125,7 +126,7 @@ contains
             off_centre = off_centre + t*(bound(i) - bound(points + 1 - i))
         end do
         off_centre = off_centre/(0.25_wp*pi*points)
-        lanes = merge(falling_lanes, most_lanes, falls_when_hot(rolling%friction))
+        lanes = merge(1, most_lanes, falls_when_hot(rolling%friction))
         do i = first, last, lanes
             call fill_block(law, strips, i, min(i + lanes - 1, last), rolling, block)
             if (is_pressed(rolling)) call find_pressed(law, strips, rolling, block, pressed)
@@ -227,11 +228,11 @@ contains
         t = real(rolling%points - 2*i + 1, wp)/rolling%points
         is_hot = falls_when_hot(rolling%friction)
         do k = 1, block%lanes
-            if (is_hot) fall%heat(i, k) = 0.0_wp
+            if (is_hot) fall%heat(i) = 0.0_wp
             if (block%excess(k) > 0.0_wp) then
                 slip = block%f(k)*hypot(block%px(k), block%py(k))/block%step(k)
                 share = falling_share(rolling%friction, slip)
-                if (is_hot) share = share*hot_share_of(rolling, fall%heat(:i - 1, k), &
+                if (is_hot) share = share*hot_share_of(rolling, fall%heat(:i - 1), &
                     2.0_wp*block%half_length(k)/rolling%points, &
                     share/fall%left(k)*heat_of(block, k, ahead_x(k), ahead_y(k)))
                 part = share/fall%left(k)
@@ -245,7 +246,7 @@ contains
                 block%px(k) = part*block%px(k)
                 block%py(k) = part*block%py(k)
                 block%f(k) = block%f(k)/part
-                if (is_hot) fall%heat(i, k) = heat_of(block, k, ahead_x(k), ahead_y(k))
+                if (is_hot) fall%heat(i) = heat_of(block, k, ahead_x(k), ahead_y(k))
                 if (k <= block%n) then
                     static = block%cell(k)*fall%static_bound(k)*bound
                     sums%slid = sums%slid + fall%left(k)*static

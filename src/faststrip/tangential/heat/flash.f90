@@ -19,7 +19,7 @@ module faststrip_tangential_heat_flash
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
                                      st_out_of_range
     use faststrip_base_thermal, only: heating_t
-    use faststrip_tangential_heat_sources, only: weight, most_along, rise_ahead
+    use faststrip_tangential_heat_sources, only: most_along, rise_ahead, weight_of_itself
     use faststrip_tangential_types, only: tangential_field_t, field_power
     implicit none
     private
@@ -74,7 +74,8 @@ contains
             do i = row%first, row%last
                 n = nint((field%x(row%first) - field%x(i))/row%length) + 1
                 power(n) = max(field_power(field, i), 0.0_wp)
-                rise = heat%gain*sqrt(row%length)*(rise_ahead(power(:n - 1)) + weight(0)*power(n))
+                rise = heat%gain*sqrt(row%length)* &
+                    (rise_ahead(power(:n - 1)) + weight_of_itself*power(n))
                 field%temperature(i) = heat%shared + rise
                 if (.not. rise > flash%rise) cycle
                 flash = flash_t(rise, field%temperature(i), field%x(i), field%y(i))

@@ -13,7 +13,7 @@
 !>   second `8/sqrt(1 + t) [B - (1 - m) D]/(3 m)`.
 !>
 !> Heat that is uniform over each of the elements of a row, all of one length, has at the middle of
-!> element i `sqrt(length) sum_j weight(i - j) q_j`: one table of numbers serves all rows. A march
+!> element i `sqrt(length) sum_j W(i - j) q_j`: one table of numbers serves all rows. A march
 !> knows the heat of its steps instead, from middle to middle, the first half as long.
 module faststrip_tangential_heat_sources
     use faststrip_base_kinds, only: wp
@@ -22,22 +22,14 @@ module faststrip_tangential_heat_sources
     implicit none
     private
 
-    public :: uniform_source, semi_elliptic_source, weight, most_along, rise_ahead
-    public :: rise_by_steps, own_weight
+    public :: uniform_source, semi_elliptic_source, rise_ahead, rise_by_steps, own_weight
+    public :: most_along, weight_of_itself
 
     !> The most elements along a row.
-    !> Tuned [elements]. Origin: capacity: a row of them on the stack.
-    integer, parameter :: most_along = 5000
-
-    integer :: k
-    !> What the heat of an element does so many elements behind: `int ds/sqrt(s)` over it, over the
+    integer, parameter :: most_along = most_points
+    !> What the heat of an element does at its middle: `int ds/sqrt(s)` over half of it, over the
     !> root of its length.
-    real(wp), parameter :: weight(0:most_along - 1) = &
-        [sqrt(2.0_wp), (2.0_wp/(sqrt(k + 0.5_wp) + sqrt(k - 0.5_wp)), k=1, most_along - 1)]
-
-    !> The same at the end of a step of a march.
-    real(wp), parameter :: step_weight(0:most_points - 1) = &
-        [(2.0_wp/(sqrt(k + 1.0_wp) + sqrt(real(k, wp))), k=0, most_points - 1)]
+    real(wp), parameter :: weight_of_itself = sqrt(2.0_wp)
 
 contains
 
@@ -81,6 +73,11 @@ contains
     pure real(wp) function rise_ahead(heat)
         real(wp), intent(in) :: heat(:) !! of these elements, the leading edge first
 
+        integer :: k
+        ! The table: what the heat of an element does so many elements behind.
+        real(wp), parameter :: weight(most_along) = &
+            [(2.0_wp/(sqrt(k + 0.5_wp) + sqrt(k - 0.5_wp)), k=1, most_along)]
+
         rise_ahead = dot_product(weight(size(heat):1:-1), heat)
     end function rise_ahead
 
@@ -89,14 +86,17 @@ contains
     pure real(wp) function rise_by_steps(heat) result(rise)
         real(wp), intent(in) :: heat(:) !! of these steps, uniform over each, the first one first
 
-        integer :: i, n
+        integer :: i, k, n
+        ! What the heat of a step does so many steps behind its end.
+        real(wp), parameter :: weight(most_points) = &
+            [(2.0_wp/(sqrt(k + 1.0_wp) + sqrt(real(k, wp))), k=1, most_points)]
 
         n = size(heat)
         rise = 0.0_wp
         if (n == 0) return
         rise = heat(1)/(sqrt(n + 0.5_wp) + sqrt(real(n, wp)))
         do i = 2, n
-            rise = rise + heat(i)*step_weight(n + 1 - i)
+            rise = rise + heat(i)*weight(n + 1 - i)
         end do
     end function rise_by_steps
 
@@ -104,6 +104,6 @@ contains
     elemental real(wp) function own_weight(step)
         integer, intent(in) :: step !! from 1 on
 
-        own_weight = merge(weight(0), step_weight(0), step == 1)
+        own_weight = merge(weight_of_itself, 2.0_wp, step == 1)
     end function own_weight
 end module faststrip_tangential_heat_sources
