@@ -338,8 +338,8 @@ class GapFile(ProgramTest):
 
     def test_friction_power_between_dissimilar_materials(self):
         # Where nothing sticks tractions do less on the creepage than on the slip.
-        text = gap_case(motion="cksi = 0.004")
-        self.write("case.nml", text.replace("mu = 0.3", "mu = 0.1, E_rail_MPa = 7e4"))
+        text = gap_case(motion="cksi = 0.006")
+        self.write("case.nml", text.replace("mu = 0.3", "mu = 0.2, E_rail_MPa = 7e4"))
         row = self.solved("contact", "case.nml", "--fields", "fields.csv")
         tang = self.solved("contact", "case.nml", "--tangential", "tang")
         self.assert_close(float(row["friction_power_N"]), float(tang["friction_power_N"]), 0.02)
