@@ -108,8 +108,9 @@ class Friction(ProgramTest):
         table = "&friction\n  mu_y_mm = -1.0, 1.5\n  mu_table = 0.1, 0.4\n/\n"
         of_case = self.forces(table, moving(0.002))
         names = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm,mu_y_mm,mu_table"
-        self.write("rows.csv", names + '\na,gap.csv,209920,0.28,0.3,1e5,0.002,0,0,'
-                   '"-1.0, 1.5","0.1, 0.4"\nb,gap.csv,209920,0.28,0.3,1e5,0.002,0,0,"1, 0","1, 1"\n')
+        row = "gap.csv,209920,0.28,0.3,1e5,0.002,0,0"
+        self.write("rows.csv", f'{names}\na,{row},"-1.0, 1.5","0.1, 0.4"\n'
+                   f'b,{row},"1, 0","1, 1"\n')
         done = self.run_program("batch", "rows.csv", "--normal", "hertz")
         rows = rows_of(done.stdout)
         self.assertEqual(rows[0]["Fx_N"], of_case["Fx_N"])
