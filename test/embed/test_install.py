@@ -244,7 +244,8 @@ class Installed(HostTest):
     def test_the_structs_have_the_members_of_the_header_in_their_order(self):
         header = re.sub(r"/\*.*?\*/", "", self.installed.header.read_text(encoding="utf-8"),
                         flags=re.DOTALL)
-        types = {"size_t": "c_size_t", "int": "c_int", "double": "c_double"}
+        types = {"size_t": "c_size_t", "int": "c_int", "double": "c_double",
+                 "const double *": "c_ptr"}
         for room, of_header, of_fortran in (
                 ("structs", "case", "case"), ("structs", "result", "result"),
                 ("wheelset", "wheelset_demand", "demand"),
@@ -253,12 +254,12 @@ class Installed(HostTest):
             body, = re.findall(rf"typedef struct faststrip_{of_header} {{(.*?)}}", header,
                                re.DOTALL)
             wanted = [(types[kind], name) for kind, names in
-                      re.findall(r"(size_t|int|double) ([\w\[\], ]+);", body)
+                      re.findall(r"(size_t|int|const double \*|double) ?([\w\[\], ]+);", body)
                       for name in re.findall(r"(\w+)(?:\[\d\])?", names)]
             source = (ROOT / f"src/faststrip/interop/c/{room}.f90").read_text("utf-8")
             body, = re.findall(rf"type, bind\(c\) :: c_{of_fortran}_t\n(.*?)end type", source,
                                re.DOTALL)
-            body = re.sub(r"!.*|&\n", "", body)
+            body = re.sub(r"!.*|&\n| = c_null_ptr", "", body)
             found = [(kind, name) for kind, names in
                      re.findall(r"\((c_\w+)\)[^:]* :: (.*)", body)
                      for name in re.findall(r"([a-z]\w*)(?: = 0)?(?:\(\d\))?", names)]
