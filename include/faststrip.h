@@ -164,7 +164,7 @@ typedef struct faststrip_case {
     double tread_angle;   /* contact angle up to which the tread's mu counts, rad, >= 0 */
     double flange_angle;  /* from which the flange's counts, rad; between both linearly */
     double contact_angle; /* of this contact, of either sign, rad; of wheelsets it is found */
-    int n_mu;             /* places of a table of mu across the rail, 1 to 32; 0: mu is the same */
+    int n_mu;             /* places of a table of mu across the rail, 1 to 16; 0: mu is the same */
     int mu_over;          /* enum faststrip_places: what the places are */
     const double *mu_at;  /* n_mu places, increasing, mm or rad; read in the call that is made */
     const double *mu_table; /* mu there, in place of mu: linear between, constant beyond */

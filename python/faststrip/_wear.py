@@ -46,7 +46,7 @@ class Friction:
     tread_angle, flange_angle : float
         Contact angle up to which the tread's mu counts, and from which the flange's counts, rad.
     at, mu : sequence of floats
-        Places across the rail, increasing, up to 32, and the coefficient there, in place of the
+        Places across the rail, increasing, up to 16, and the coefficient there, in place of the
         argument mu: linear between, constant beyond. Methods without strips, rows or elements of
         their own take the mean by load.
     over : str

@@ -127,7 +127,7 @@ class Friction(ProgramTest):
                 ("mu_y_mm = 1.0, nan\n  mu_table = 0.3, 0.2",
                  "&friction mu_y_mm must be a finite number"),
                 ("mu_y_mm = 1.0, 2.0\n  mu_table = 0.3, -0.2",
-                 "&friction mu_table must be at most 32 finite numbers from 0 on"),
+                 "&friction mu_table must be at most 16 finite numbers from 0 on"),
                 ("mu_angle_rad = 0.1\n  mu_table = 0.3",
                  "&friction mu_angle_rad must not be given with a gap file")):
             self.refused_friction(f"&friction\n  {table}\n/\n", words)

@@ -21,8 +21,8 @@ module faststrip_base_friction_table
     integer, parameter :: over_contact = 0, over_rail = 1, over_angle = 2
 
     !> The most places.
-    !> Tuned [places]. Origin: capacity: half a kilobyte.
-    integer, parameter :: most_places = 32
+    !> Tuned [places]. Origin: capacity: a quarter of a kilobyte.
+    integer, parameter :: most_places = 16
 
     !> The coefficient of friction at places.
     type :: friction_table_t

@@ -1,6 +1,6 @@
 !> Forces of creepages beyond what methods take: of creepages in the same proportions; what goes
-!> with the size of slip is told of them as they are. It is apart from its caller for the stack: a
-!> call needs what is here only where creepages are so large.
+!> with the size of slip is told of them as they are. A copy of the case is apart from its caller
+!> for the stack: a call needs it only where creepages are so large.
 module faststrip_contact_cut
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
@@ -11,7 +11,7 @@ module faststrip_contact_cut
     implicit none
     private
 
-    public :: solve_motion
+    public :: solve_motion, solve_tried
 
 contains
 
@@ -31,31 +31,52 @@ contains
         if (.not. share < 1.0_wp .or. .not. method%cuts_creepages) then
             call method%solve(workspace, case, result, status)
         else
-            call solve_cut(workspace, case, method, creepage, share, result, status)
+            call solve_copy(workspace, case, method, result, status)
         end if
     end subroutine solve_motion
 
-    !> Solve for creepages that were cut.
-    subroutine solve_cut(workspace, case, method, creepage, share, result, status)
+    subroutine solve_copy(workspace, case, method, result, status)
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
+        class(tangential_method_t), intent(in) :: method
+        type(contact_result_t), intent(inout) :: result
+        type(status_t), intent(out) :: status
+
+        type(contact_case_t) :: tried
+
+        tried%contact_terms_t = case%contact_terms_t
+        call solve_tried(workspace, tried, method, result, status)
+    end subroutine solve_copy
+
+    !> The same of a case that may change on the way; it is what it was afterwards.
+    subroutine solve_tried(workspace, tried, method, result, status)
         type(workspace_t), intent(inout) :: workspace    !! with a normal solution
-        type(contact_case_t), intent(in) :: case         !! with its creepages as they are
+        type(contact_case_t), intent(inout) :: tried     !! with its creepages as they are
         class(tangential_method_t), intent(in) :: method !! that of the case
-        type(creepage_t), intent(in) :: creepage         !! that is left
-        real(wp), intent(in) :: share                    !! of the case's
         type(contact_result_t), intent(inout) :: result  !! gets its tangential part
         type(status_t), intent(out) :: status            !! those of the method
 
-        type(contact_case_t) :: slower
+        type(creepage_t) :: creepage
+        real(wp) :: share, conductivity(2)
 
-        slower%contact_terms_t = case%contact_terms_t
+        result%creepage = tried%creepage
+        call cut_creepage(tried%creepage, creepage, share)
+        if (.not. method%cuts_creepages) share = 1.0_wp
+        if (.not. share < 1.0_wp) then
+            call method%solve(workspace, tried, result, status)
+            return
+        end if
+        conductivity = tried%thermal%conductivity
         ! As much heat of less slip at more speed: the effusivity goes with the root of share.
-        slower%thermal%conductivity = case%thermal%conductivity*share
-        slower%creepage = creepage
-        workspace%friction%speed = case%friction%speed/share
-        call method%solve(workspace, slower, result, status)
-        workspace%friction%speed = case%friction%speed
+        tried%thermal%conductivity = conductivity*share
+        tried%creepage = creepage
+        workspace%friction%speed = tried%friction%speed/share
+        call method%solve(workspace, tried, result, status)
+        tried%thermal%conductivity = conductivity
+        tried%creepage = result%creepage
+        workspace%friction%speed = tried%friction%speed
         if (.not. is_error(status)) call scale_slip(workspace, result, 1.0_wp/share)
-    end subroutine solve_cut
+    end subroutine solve_tried
 
     pure subroutine scale_slip(workspace, result, factor)
         type(workspace_t), intent(inout) :: workspace

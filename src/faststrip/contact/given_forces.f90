@@ -25,7 +25,7 @@ module faststrip_contact_given_forces
                                      add_limitation, number_text, st_bad_argument, st_not_finite, &
                                      st_no_convergence, st_not_unique
     use faststrip_contact_case, only: contact_case_t, given_forces_t
-    use faststrip_contact_cut, only: solve_motion
+    use faststrip_contact_cut, only: solve_tried
     use faststrip_contact_method, only: contact_result_t, workspace_t, tangential_method_t, &
                                         found_motion_t
     use faststrip_contact_methods, only: method_t, tangential_none, tangential_linear, &
@@ -192,7 +192,7 @@ contains
         in_vain = 0
         do i = 1, most_solutions
             call find_creepages(map, workspace%strips, now%z, tried%creepage, found, slopes, status)
-            if (.not. is_error(status)) call solve_motion(workspace, tried, method, result, status)
+            if (.not. is_error(status)) call solve_tried(workspace, tried, method, result, status)
             if (is_error(status)) return
             now%z = found
             associate (got => result%tangential)
@@ -225,7 +225,7 @@ contains
             ! Where forces jump, the nearer side.
             now = best
             tried%creepage = best_creepage
-            call solve_motion(workspace, tried, method, result, status)
+            call solve_tried(workspace, tried, method, result, status)
             if (is_error(status)) return
             associate (got => result%tangential)
                 is_found = size_of(map, [got%fx, got%fy] - forces) <= jump*map%force

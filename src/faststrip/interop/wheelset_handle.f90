@@ -27,7 +27,7 @@ module faststrip_interop_wheelset_handle
     private
 
     public :: wheelset_handle_t
-    public :: allocate_wheelset, free_wheelset, find_wheelset, take_wheels, wheelset_solve
+    public :: allocate_wheelset, allocate_workspace, free_wheelset, find_wheelset, take_wheels, wheelset_solve
     public :: contact_count, contact_place, find_contact, contact_mirror
     public :: copy_wheelset, pitch_rate_of, wheelset_derivatives, use_lookup
 
@@ -37,7 +37,7 @@ module faststrip_interop_wheelset_handle
     !> One caller's wheelset.
     type :: wheelset_handle_t
         type(wheelset_model_t) :: model
-        type(wheelset_workspace_t) :: workspace
+        type(wheelset_workspace_t), allocatable :: workspace
         type(wheelset_result_t) :: result
         logical :: has(2) = .false. !! which wheels the result is of
         type(rail_state_t) :: rail(2) !! right, left: of the F77 interface, which sets them once
@@ -51,7 +51,8 @@ module faststrip_interop_wheelset_handle
 
 contains
 
-    !> Make an empty handle. Its first values are much for a stack: so nothing else happens here.
+    !> Make an empty handle, without a workspace. First values are much for a stack: so nothing else
+    !> happens here.
     subroutine allocate_wheelset(handle, status)
         type(wheelset_handle_t), pointer, intent(out) :: handle !! null when there is an error
         type(status_t), intent(out) :: status                   !! `st_workspace_too_small`
@@ -62,8 +63,26 @@ contains
         allocate (handle, stat=failure)
         if (failure == 0) return
         handle => null()
-        call set_status(status, st_workspace_too_small, 'not enough memory for a wheelset')
+        call refuse_memory(status)
     end subroutine allocate_wheelset
+
+    !> Make an empty workspace of a handle; likewise.
+    subroutine allocate_workspace(handle, status)
+        type(wheelset_handle_t), intent(inout) :: handle !! gets it
+        type(status_t), intent(out) :: status            !! `st_workspace_too_small`
+
+        integer :: failure
+
+        call clear_status(status)
+        allocate (handle%workspace, stat=failure)
+        if (failure /= 0) call refuse_memory(status)
+    end subroutine allocate_workspace
+
+    subroutine refuse_memory(status)
+        type(status_t), intent(inout) :: status
+
+        call set_status(status, st_workspace_too_small, 'not enough memory for a wheelset')
+    end subroutine refuse_memory
 
     !> Free a wheelset; nothing happens to what is none.
     subroutine free_wheelset(number, status)

@@ -14,7 +14,8 @@ module faststrip_interop_wheelset_new
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t
     use faststrip_geometry_touchable, only: touchable_t, body_wheel, body_rail
     use faststrip_interop_register, only: enter_register, kind_wheelset
-    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, allocate_wheelset
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, allocate_wheelset, &
+                                                 allocate_workspace
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_wheelset_solve, only: make_wheelset, set_damping, reserve_wheelset
     use faststrip_wheelset_types, only: side_right, side_left
@@ -79,7 +80,9 @@ contains
         call allocate_wheelset(handle, status)
         if (is_error(status)) return
         call hold_environment(environment)
-        call fill_handle(wheels, rails, dimensions, case, handle, status)
+        call allocate_workspace(handle, status)
+        if (.not. is_error(status)) &
+            call fill_handle(wheels, rails, dimensions, case, handle, status)
         if (present(damping) .and. present(speed_floor) .and. .not. is_error(status)) &
             call set_damping(handle%model, damping, speed_floor, status)
         call restore_environment(environment)

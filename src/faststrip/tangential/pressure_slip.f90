@@ -13,7 +13,7 @@
 !>
 !> zeta_1 and zeta_2 of its left and right edge. Tractions do not change pressures here (Goodman).
 module faststrip_tangential_pressure_slip
-    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: material_t, combined_shear_modulus
     use faststrip_influence_rectangle, only: coupling_constant
     use faststrip_normal_strips, only: contact_strips_t
@@ -31,9 +31,11 @@ module faststrip_tangential_pressure_slip
     ! Tuned [1]. Origin: moduli given with five digits.
     real(wp), parameter :: least_coupling = 1.0e-5_wp
 
-    integer :: m
-    ! Given: Chebyshev's nodes.
-    real(wp), parameter :: node(n_nodes) = [(cos(pi*(2*m - 1)/(2*n_nodes)), m=1, n_nodes)]
+    ! Given: Chebyshev's nodes, cos(pi/10), cos(3 pi/10) and their opposites.
+    real(wp), parameter :: node(n_nodes) = [ &
+        0.951056516295153572116439333379382143_wp, 0.587785252292473129168705954639072769_wp, &
+        0.0_wp, -0.587785252292473129168705954639072769_wp, &
+        -0.951056516295153572116439333379382143_wp]
 
     ! Proportions a/b of ellipses.
     ! Given: places of a table.

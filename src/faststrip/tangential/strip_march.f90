@@ -53,8 +53,21 @@ module faststrip_tangential_strip_march
     !> Tuned [points]. Origin: capacity.
     integer, parameter :: most_hot_points = 128
 
+    ! Strips of dissimilar materials marched side by side: what pressures do to them stands on the
+    ! stack.
+    ! Tuned [strips]. Origin: capacity: a hundredth of the stack of a call.
+    integer, parameter :: pressed_lanes = 2*lane_step
+
     ! Added to what is divided by where it may be nothing; changes no digit.
     real(wp), parameter :: least = tiny(1.0_wp)
+
+    !> The traction bound along a strip (S2).
+    type :: bound_t
+        integer :: n = 0               !! elements of a strip
+        real(wp) :: alpha = 0.0_wp     !! of the law
+        real(wp) :: factor = 1.0_wp    !! that makes its sum pi/4 n
+        real(wp) :: thickness((most_points + 1)/2) !! (1 - t^2)^m at the first half of the elements
+    end type bound_t
 
     !> Strips side by side.
     type :: block_t
@@ -72,18 +85,17 @@ module faststrip_tangential_strip_march
         real(wp), dimension(most_lanes) :: f, step         !! lambda times step, mm/MPa; step, mm
         real(wp), dimension(most_lanes) :: excess         !! |p|^2 over the squared bound, MPa^2
         real(wp), dimension(most_lanes) :: extra_y        !! what adhesion has beyond rigid slip
-        real(wp), dimension(most_lanes) :: slope_stiffness !! (a/xd)^gamma
         real(wp), dimension(most_lanes) :: pressed        !! tractions times slip by pressures
         real(wp), dimension(most_lanes) :: sum_x, sum_y, arm_x, sticking !! over the elements
     end type block_t
 
     !> What pressures of dissimilar materials add in strips side by side (S14).
     type :: pressed_t
-        real(wp), dimension(n_nodes, most_lanes) :: node_x, node_y !! slip at the nodes
-        real(wp), dimension(most_lanes) :: own            !! slip by p0
-        real(wp), dimension(most_lanes) :: slip_x, slip_y !! at the element
-        real(wp), dimension(most_lanes) :: slope_x, slope_y, rigid_x, rigid_y !! without them
-        real(wp), dimension(most_lanes) :: bed_x, bed_y   !! slopes of adhesion by unit slip, MPa/mm
+        real(wp), dimension(n_nodes, pressed_lanes) :: node_x, node_y !! slip at the nodes
+        real(wp), dimension(pressed_lanes) :: own            !! slip by p0
+        real(wp), dimension(pressed_lanes) :: slip_x, slip_y !! at the element
+        real(wp), dimension(pressed_lanes) :: slope_x, slope_y, rigid_x, rigid_y !! without them
+        real(wp), dimension(pressed_lanes) :: bed_x, bed_y   !! slopes of adhesion by slip, MPa/mm
     end type pressed_t
 
     !> What falls in strips side by side.
@@ -108,41 +120,59 @@ contains
 
         type(block_t) :: block
         type(pressed_t) :: pressed
-        real(wp) :: bound(most_points), t, thickness, off_centre
+        type(bound_t) :: bound
+        real(wp) :: t, off_centre, all
         integer :: i, points, lanes
 
         if (law%weight <= 0.0_wp) return
         points = rolling%points
+        bound%n = points
+        bound%alpha = law%alpha
         do i = 1, (points + 1)/2
             t = real(points - 2*i + 1, wp)/points
-            thickness = (1.0_wp - t*t)**law%exponent
-            bound(i) = thickness*(1.0_wp - law%alpha*t)
-            bound(points + 1 - i) = thickness*(1.0_wp + law%alpha*t)
+            bound%thickness(i) = (1.0_wp - t*t)**law%exponent
         end do
-        bound(:points) = bound(:points)*(0.25_wp*pi*points/sum(bound(:points)))
+        all = 0.0_wp
+        do i = 1, points
+            all = all + bound_at(bound, i)
+        end do
+        bound%factor = 0.25_wp*pi*points/all
         off_centre = 0.0_wp
         do i = 1, points/2
             t = real(points - 2*i + 1, wp)/points
-            off_centre = off_centre + t*(bound(i) - bound(points + 1 - i))
+            off_centre = off_centre + t*(bound_at(bound, i) - bound_at(bound, points + 1 - i))
         end do
         off_centre = off_centre/(0.25_wp*pi*points)
-        lanes = merge(1, most_lanes, falls_when_hot(rolling%friction))
+        lanes = most_lanes
+        if (is_pressed(rolling)) lanes = pressed_lanes
+        if (falls_when_hot(rolling%friction)) lanes = 1
         do i = first, last, lanes
             call fill_block(law, strips, i, min(i + lanes - 1, last), rolling, block)
             if (is_pressed(rolling)) call find_pressed(law, strips, rolling, block, pressed)
             if (falls(rolling%friction)) then
-                call march_falling(block, bound(:points), strips, rolling, pressed, sums, field)
+                call march_falling(block, bound, strips, rolling, pressed, sums, field)
             else
-                call march(block, bound(:points), strips, rolling, pressed, field)
+                call march(block, bound, strips, rolling, pressed, field)
             end if
             call add_block(law, block, off_centre, rolling, sums, per_strip)
         end do
     end subroutine march_strips
 
+    !> The bound at the middle of an element, over mu p0.
+    elemental real(wp) function bound_at(bound, i)
+        type(bound_t), intent(in) :: bound
+        integer, intent(in) :: i ! from the leading edge on
+
+        real(wp) :: t
+
+        t = real(bound%n - 2*i + 1, wp)/bound%n
+        bound_at = bound%thickness(min(i, bound%n + 1 - i))*(1.0_wp - bound%alpha*t)*bound%factor
+    end function bound_at
+
     !> March all strips of a block side by side, and note the elements if they are wanted.
     pure subroutine march(block, bound, strips, rolling, pressed, field)
         type(block_t), intent(inout) :: block
-        real(wp), intent(in) :: bound(:) !! over mu p0, at the middles of the elements
+        type(bound_t), intent(in) :: bound
         type(contact_strips_t), intent(in) :: strips
         type(rolling_t), intent(in) :: rolling
         type(pressed_t), intent(inout) :: pressed
@@ -152,7 +182,7 @@ contains
         real(wp) :: t, step
         integer :: i, n
 
-        n = size(bound)
+        n = bound%n
         do i = 1, n
             t = real(n - 2*i + 1, wp)/n
             ! Half a step from the edge to the middle of the first element.
@@ -162,7 +192,7 @@ contains
                 ahead_y = block%py
             end if
             if (is_pressed(rolling)) call press(block, t + 0.5_wp*step, pressed)
-            call advance(block, t, step, bound(i), rolling%creepage%cphi)
+            call advance(block, t, step, bound_at(bound, i), rolling%creepage%cphi)
             if (is_pressed(rolling)) call note_pressed(block, pressed)
             if (present(field)) call note_elements(block, strips, rolling%creepage, ahead_x, &
                                                    ahead_y, i, n, field)
@@ -174,7 +204,7 @@ contains
     !> block is the mean of what it was.
     pure subroutine march_falling(block, bound, strips, rolling, pressed, sums, field)
         type(block_t), intent(inout) :: block
-        real(wp), intent(in) :: bound(:) !! over mu p0, at the middles of the elements
+        type(bound_t), intent(in) :: bound
         type(contact_strips_t), intent(in) :: strips
         type(rolling_t), intent(in) :: rolling
         type(pressed_t), intent(inout) :: pressed
@@ -183,10 +213,11 @@ contains
 
         type(fall_t) :: fall
         real(wp), dimension(most_lanes) :: ahead_x, ahead_y
-        real(wp) :: t, step
+        real(wp) :: t, step, all
         integer :: i, k, n
 
-        n = size(bound)
+        n = bound%n
+        all = 0.0_wp
         do k = 1, block%lanes
             fall%static_bound(k) = block%peak_bound(k)
             fall%left(k) = 1.0_wp
@@ -198,15 +229,16 @@ contains
             ahead_x = block%px
             ahead_y = block%py
             if (is_pressed(rolling)) call press(block, t + 0.5_wp*step, pressed)
-            call advance(block, t, step, bound(i), rolling%creepage%cphi)
-            call follow_slip(block, rolling, i, bound(i), ahead_x, ahead_y, fall, sums)
+            call advance(block, t, step, bound_at(bound, i), rolling%creepage%cphi)
+            all = all + bound_at(bound, i)
+            call follow_slip(block, rolling, i, bound_at(bound, i), ahead_x, ahead_y, fall, sums)
             if (is_pressed(rolling)) call note_pressed(block, pressed)
             if (present(field)) call note_elements(block, strips, rolling%creepage, ahead_x, &
                                                    ahead_y, i, n, field)
         end do
         if (present(field)) field%n = field%n + n*block%n
         do k = 1, block%lanes
-            block%peak_bound(k) = fall%static_bound(k)*fall%bound(k)/sum(bound)
+            block%peak_bound(k) = fall%static_bound(k)*fall%bound(k)/all
         end do
     end subroutine march_falling
 
@@ -424,7 +456,6 @@ contains
             flexibility = sqrt(sqrt(block%half_length(k)/law%a))
             flexibility = flexibility*sqrt(flexibility)
             stiffness = 1.0_wp/flexibility
-            block%slope_stiffness(k) = stiffness
             offset = block%y(k) - law%y
             block%slope_x(k) = (cksi/law%l1 - offset*rolling%creepage%cphi*law%spin_slope) &
                                *stiffness
@@ -472,7 +503,9 @@ contains
             call find_pressure_slip(strips, at, rolling%pressure_slip, pressed%node_x(:, k), &
                                     pressed%node_y(:, k))
             pressed%own(k) = 2.0_wp*rolling%pressure_slip*strips%p0(at)
-            stiffness = block%slope_stiffness(k)/factor
+            ! (a/xd)^gamma_length
+            stiffness = sqrt(sqrt(law%a/block%half_length(k)))
+            stiffness = stiffness*sqrt(stiffness)/factor
             pressed%bed_x(k) = stiffness/law%l1
             pressed%bed_y(k) = stiffness/law%l2
             pressed%slope_x(k) = block%slope_x(k)

@@ -7,10 +7,10 @@
 !> FRIC(5) mu on the flange over that on the tread, PAR(5); 1: they are one
 !> FRIC(6), FRIC(7) contact angles up to which the tread's counts and from which the flange's, rad
 !> FRIC(8) contact angle, rad; of wheelsets it is found, as FRIC(3)
-!> OVER     what places of friction are: 0 y of the contact, 1 y on the rail, mm, 2 contact angle
+!> KOVER    what places of friction are: 0 y of the contact, 1 y on the rail, mm, 2 contact angle
 !>          of either sign, rad (FRIC(8); of wheelsets it is found)
-!> YRAIL    y on the rail's profile at y = 0, mm, for OVER 1; of wheelsets it is found
-!> AT(N), MU(N) places, increasing, and the coefficients there; linear between, constant beyond
+!> YRAIL    y on the rail's profile at y = 0, mm, for KOVER 1; of wheelsets it is found
+!> AT(N), AMU(N) places, increasing, and the coefficients there; linear between, constant beyond
 !> NREG     regimes of a law of wear, up to 32; 0: none
 !> REGIM(1,I), REGIM(2,I) T gamma/A where regime I begins and ends, N/mm^2; the first at 0
 !> REGIM(3,I) constant, ug/(m mm^2), and REGIM(4,I) slope, ug/(m N), of the wear rate
@@ -64,18 +64,18 @@ contains
         end if
     end subroutine fsfric
 
-    !> CALL FSFRTB(IWORK, OVER, YRAIL, N, AT, MU, INFO)
+    !> CALL FSFRTB(IWORK, KOVER, YRAIL, N, AT, AMU, INFO)
     !>
     !> Set friction across the rail for all further calls of FSSOLV or FSWSLV, in place of PAR(5);
     !> figures of the last solution are forgotten. FSFRIC takes it back, and comes first where it
     !> is called too.
-    subroutine fsfrtb(iwork, over, y_rail, n, at, mu, info) bind(c, name='fsfrtb_')
+    subroutine fsfrtb(iwork, kover, y_rail, n, at, amu, info) bind(c, name='fsfrtb_')
         integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSINIT or FSWNEW
-        integer(c_int), intent(in) :: over           !! as above
+        integer(c_int), intent(in) :: kover          !! as above
         real(c_double), intent(in) :: y_rail         !! as above
-        integer(c_int), intent(in) :: n              !! places, 1 to 32; 0: mu is the same
+        integer(c_int), intent(in) :: n              !! places, 1 to 16; 0: mu is the same
         real(c_double), intent(in) :: at(*)          !! as above
-        real(c_double), intent(in) :: mu(*)          !! as above
+        real(c_double), intent(in) :: amu(*)         !! as above
         integer(c_int), intent(out) :: info          !! status; 100: no table, nothing is changed
 
         type(handle_t), pointer :: handle
@@ -85,7 +85,7 @@ contains
 
         call find_either(iwork, handle, wheelset, info)
         if (info /= st_ok) return
-        if (n /= 0) call make_friction_table(over, at(:n), mu(:n), table, status)
+        if (n /= 0) call make_friction_table(kover, at(:n), amu(:n), table, status)
         info = status%code
         if (is_error(status)) return
         table%y_rail = y_rail
