@@ -26,7 +26,7 @@ LINK = re.compile(r"!?\[(?:[^\]\[]|\[[^\]]*\])*\]\((?P<target>[^()\s]+)\)")
 COMMANDS = frozenset(
     "Delta Rightarrow alpha bar beta delta ell eta frac gamma ge int kappa lambda le left ln log"
     " lvert mathrm mu ne nu omega operatorname overline partial pi psi qquad rho right rvert sigma"
-    " sin sinh cos sqrt sum tau theta varphi xi".split())
+    " sin sinh cos sqrt sum tau theta varphi xi zeta".split())
 
 
 def prose(text):
