@@ -43,6 +43,9 @@ GROUPS = (
     ("Tutorials", (
         ("Worn wheel", "docs/tutorial_worn_wheel.md"),
         ("Wheelset in a curve", "docs/tutorial_curve.md"),
+        ("Ground rail, hollow wheel", "docs/tutorial_ground_rail.md"),
+        ("Braked locomotive", "docs/tutorial_braked_locomotive.md"),
+        ("Roller rig", "docs/tutorial_roller_rig.md"),
         ("Conicity", "docs/tutorial_conicity.md"),
         ("Coefficient table for an old code", "docs/tutorial_table.md"),
         ("Vehicle model", "docs/tutorial_vehicle.md"),
