@@ -46,8 +46,8 @@ module faststrip_wheelset_solve
     ! below what methods differ by.
     real(wp), parameter :: near_load = 1.0e-4_wp
     ! Tuned [1]: of a moment about the axle, over mu N r: it is found, and what methods jump by at a
-    ! slip. Origin: as of given forces.
-    real(wp), parameter :: near_moment = 1.0e-5_wp, jump_of_moment = 5.0e-4_wp
+    ! slip. Origin: chosen: the pitch rate to 1e-6 up to .999 of it; as of given forces.
+    real(wp), parameter :: near_moment = 1.0e-6_wp, jump_of_moment = 5.0e-4_wp
     ! Tuned [1]: a quarter of the longest first step of slip. Origin: chosen: half of saturation.
     real(wp), parameter :: first_slip = 5.0e-4_wp
     ! Tuned [1]: fall of the linear moment over mu N r with slip, at least. Origin: safeguard: a
