@@ -211,7 +211,7 @@ contains
     !> rate that is found (FSPRAT); STATE(10) must be 0. FSWNEW sets none.
     subroutine fsaxle(iwork, is_given, moment, info) bind(c, name='fsaxle_')
         integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
-        integer(c_int), intent(in) :: is_given       !! 1: it is given; 0: none is
+        integer(c_int), intent(in) :: is_given       !! 1 if it is given, 0 if none is
         real(c_double), intent(in) :: moment         !! N mm
         integer(c_int), intent(out) :: info          !! status
 
