@@ -604,6 +604,10 @@ typedef struct faststrip_wheelset_demand {
     double axle_load;   /* N */
     double roll_moment; /* about the wheelset's centre along the track, that the frame exerts on it;
                          * with an axle load and a free roll, N mm */
+    double axle_moment; /* about the axle, that a drive or brake exerts on the wheelset and the
+                         * wheels asked for carry together; negative drives ahead, N mm */
+    int axle_moment_is_given; /* 1: the pitch rate is found, and must be 0 in the state; 0: it is
+                               * that of the state */
 } faststrip_wheelset_demand;
 
 /* Contacts of both wheels at most. */
@@ -664,6 +668,7 @@ typedef struct faststrip_wheelset_result {
     double force[2][3]; /* on the rail, in the track, N */
     double force_wheelset[2][3]; /* the same in the wheelset's frame, N */
     double moment[2][3]; /* about the wheelset's centre, in the track, N mm */
+    double pitch_rate; /* as given, of pure rolling, or found, rad/s */
 } faststrip_wheelset_result;
 
 /* Profiles, memory and last solution of a wheelset. From faststrip_wheelset_new. */

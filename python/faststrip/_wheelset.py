@@ -98,7 +98,9 @@ class Demand(ctypes.Structure):
     """``faststrip_wheelset_demand`` of the header."""
 
     _fields_ = [*members(c_int, "kind", "wheels", "roll_is_free", "warm_start"),
-                *members(c_double, "load_right", "load_left", "axle_load", "roll_moment")]
+                *members(c_double, "load_right", "load_left", "axle_load", "roll_moment",
+                         "axle_moment"),
+                ("axle_moment_is_given", c_int)]
 
 
 FIGURES = ("load", "penetration", "area", "pmax", "y_min", "y_max", "x_max", "fx", "fy", "mz",
@@ -110,7 +112,8 @@ class Totals(ctypes.Structure):
 
     _fields_ = [*members(c_int * 2, "status", "n_contacts", "n_solutions"),
                 ("z", c_double * 2), ("roll", c_double),
-                *members(c_double * 3 * 2, "force", "force_wheelset", "moment")]
+                *members(c_double * 3 * 2, "force", "force_wheelset", "moment"),
+                ("pitch_rate", c_double)]
 
 
 @dataclass(frozen=True)
@@ -285,6 +288,8 @@ class WheelsetResult(Table):
         About the wheelset's centre, in the track, N mm.
     n_solutions : two ints
         Contact problems that were solved for each wheel.
+    pitch_rate : float
+        As given, of pure rolling, or found, rad/s.
     derivatives : ndarray of float, shape (2, 6, 8), or None
         Where they were asked for: of force and moment, x, y, z each, over y, z, roll, yaw and
         y_rate, z_rate, roll_rate, yaw_rate, in N, N mm over mm, rad and per s; all other things
@@ -301,6 +306,7 @@ class WheelsetResult(Table):
     force_wheelset: Array
     moment: Array
     n_solutions: Tuple[int, ...]
+    pitch_rate: float
     derivatives: Optional[Array] = field(default=None, compare=False, repr=False)
     _rows: ClassVar[str] = "contact"
 
@@ -460,7 +466,8 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
               roll_rate: float = 0.0, yaw_rate: float = 0.0,
               pitch_rate: Optional[float] = None, pitch_rate_difference: float = 0.0,
               curvature: float = 0.0, load: Union[None, float, Tuple[float, float]] = None,
-              axle_load: Optional[float] = None, roll_moment: float = 0.0, wheels: str = "both",
+              axle_load: Optional[float] = None, roll_moment: float = 0.0,
+              axle_moment: Optional[float] = None, wheels: str = "both",
               at_rest: bool = False, warm_start: bool = False, right_rail: RailState = IN_PLACE,
               left_rail: RailState = IN_PLACE, derivatives: bool = False) -> WheelsetResult:
         """Solve for a position z, a load of each wheel or an axle_load: one of the three.
@@ -494,6 +501,9 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
             N.
         roll_moment : float
             What the frame exerts about the wheelset's centre, N mm.
+        axle_moment : float
+            Traction torque or braking moment about the axle on the wheelset, which the wheels asked
+            for carry together, N mm: negative drives ahead. Not with a pitch_rate, which is found.
         wheels : str
             ``both``, ``right`` or ``left``.
         at_rest : bool
@@ -527,6 +537,9 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
                         roll_moment=number("roll_moment", roll_moment))
         if flag("at_rest", at_rest) and (axle_load is None or roll is not None):
             raise bad_argument("at_rest is for an axle_load, with a roll that is found")
+        if axle_moment is not None:
+            demand.axle_moment_is_given = 1
+            demand.axle_moment = number("axle_moment", axle_moment)
         if axle_load is not None:
             demand.kind = AT_REST if at_rest else BY_AXLE_LOAD
             demand.axle_load = number("axle_load", axle_load)
@@ -554,7 +567,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         return WheelsetResult(
             status, word_of(status), tuple(map(_contact_of, rows[:n.value])), tuple(totals.z),
             totals.roll, np.array(totals.force), np.array(totals.force_wheelset),
-            np.array(totals.moment), tuple(totals.n_solutions),
+            np.array(totals.moment), tuple(totals.n_solutions), totals.pitch_rate,
             slopes(self._call, library.faststrip_wheelset_get_derivatives, (2, 6, 8))
             if flag("derivatives", derivatives) else None)
 

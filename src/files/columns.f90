@@ -138,6 +138,7 @@ module faststrip_files_columns
         column_t('z_wheel_mm', holds_numbers, 'z on the profile of the wheel', 'wheel_z'), &
         column_t('radius_mm', holds_numbers, 'rolling radius', 'radius'), &
         column_t('rolling_speed_mm_s', holds_numbers, 'rolling speed', 'speed'), &
+        column_t('pitch_rate_rad_s', holds_numbers, 'pitch rate of the wheelset'), &
         column_t('est_err_load', holds_numbers, &
                  'share of N that the accuracy of the profiles may move', 'est_err_load'), &
         column_t('body', holds_text, 'wheel or rail'), &

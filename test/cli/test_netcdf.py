@@ -23,7 +23,8 @@ UNITS = {
 # What one of each unit is in units of the SI.
 IN_SI = {
     "1": (1, "1"), "mm": (1e-3, "m"), "um": (1e-6, "m"), "mm2": (1e-6, "m2"),
-    "mm-1": (1e3, "m-1"), "rad": (1, "rad"), "rad mm-1": (1e3, "rad m-1"), "N": (1, "N"),
+    "mm-1": (1e3, "m-1"), "rad": (1, "rad"), "rad mm-1": (1e3, "rad m-1"),
+    "rad s-1": (1, "rad s-1"), "N": (1, "N"),
     "N mm": (1e-3, "N m"), "MPa": (1e6, "Pa"), "N mm-2": (1e6, "Pa"), "us": (1e-6, "s"),
     "mm s-1": (1e-3, "m s-1"), "ug m-1": (1e-9, "kg m-1"), "mm3 m-1": (1e-9, "m2"),
     "mm km-1": (1e-6, "1"), "K": (1, "K"), "degC": (274.15, "K"),

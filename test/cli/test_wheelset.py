@@ -52,6 +52,37 @@ class Wheelset(ProgramTest):
         self.assertEqual(run.stderr, "faststrip: still: nothing moves: without slip there are no "
                          "friction forces\n")
 
+    def test_a_moment_about_the_axle_gives_its_pitch_rate(self):
+        """As rows and as a group; the driven wheels turn faster, the braked ones slower."""
+        header = f"{HEADER},axle_moment_Nmm"
+        rows = [row for row in self.solved(
+            "free,both,2,,0.001,20000,,1.6e5,0", "driven,both,2,,0.001,20000,,1.6e5,-1.2e7",
+            "braked,both,2,,0.001,20000,,1.6e5,1.2e7", header=header) if row["side"] == "right"]
+        free, driven, braked = (float(row["pitch_rate_rad_s"]) for row in rows)
+        self.assertLess(driven, 1.0002 * free)
+        self.assertGreater(braked, 0.9998 * free)
+        again = self.solved(f"again,both,2,,0.001,20000,{driven!r},1.6e5", "pure,both,2,,0.001,"
+                            "20000,,1.6e5")
+        for one in again[:2]:
+            self.assertEqual(float(one["pitch_rate_rad_s"]), driven)
+        self.assertEqual(float(again[-1]["pitch_rate_rad_s"]), -20000 / 460)
+        right = next(row for row in again if row["side"] == "right")
+        self.assert_close(float(right["Fx_N"]), float(rows[1]["Fx_N"]), 1e-3)
+        total = sum(float(one["Fx_N"]) * float(one["radius_mm"]) for one in again[:2])
+        self.assert_close(total, -1.2e7, 1e-2)
+        self.write("group.nml", CASE + "&state\n  y_mm = 2, yaw_rad = 0.001, speed_mm_s = 20000,"
+                   " Fz_N = 1.6e5, axle_moment_Nmm = -1.2e7\n/\n")
+        self.assertEqual(float(self.good("wheelset", "group.nml")[0]["pitch_rate_rad_s"]), driven)
+        for state, words in (("right,2,0,0,20000,,8e4,1e6", "axle_moment_Nmm is for both wheels"),
+                             ("both,2,,0,20000,-43,8e4,1e6", "the pitch rate must not be given"),
+                             ("both,2,,0,0,,8e4,1e6", "a speed other than 0 must be given"),
+                             ("both,2,,0,20000,,8e4,nan", "axle_moment_Nmm"),
+                             ("both,2,,0,20000,,8e4,2e7", "what adhesion carries, 0.11")):
+            self.write("states.csv", f"{header}\nbad,{state}\n")
+            run = self.run_program("wheelset", "case.nml", "--states", "states.csv")
+            self.assertEqual(run.returncode, 1)
+            self.assertIn(words, run.stderr)
+
     def test_rollers_only_where_there_can_be_any(self):
         self.write("rollers.nml", CASE.replace("'uic60'", "'uic60'\n  roller_radius_mm = 500"))
         self.refused(1, "conicity", "rollers.nml", says=["&rail roller_radius_mm is for contact"])

@@ -79,10 +79,10 @@ class Rollers(HostTest):
             # First order: on a rail ahead by as much more as both radii are than the roller's.
             self.assertAlmostEqual(rolled.place[0] / plain.place[0], 500.0 / 960.0, delta=0.02)
             self.assertAlmostEqual(rolled.cphi / plain.cphi, 1.0 + 460.0 / 500.0, delta=0.05)
-        self.check_fixed_form(result)
+        self.check_fixed_form(result, wheelset.solve(axle_moment=-1e7, **state))
 
-    def check_fixed_form(self, result):
-        """FSROLL puts on rollers what FSWNEW made."""
+    def check_fixed_form(self, result, driven):
+        """FSROLL puts on rollers what FSWNEW made; FSAXLE drives it."""
         library = ctypes.CDLL(str(self.installed.library))
         i, d = ctypes.c_int, ctypes.c_double
         iopt, par, setup = (i * 9)(), (d * 9)(), (d * 9)()
@@ -98,10 +98,16 @@ class Rollers(HostTest):
             self.assertEqual(info.value != 0, wanted != 0, radius)
         n, wres, cont = i(), (d * 27)(), (d * (48 * 8))()
         state = (d * 11)(3.0, 0.0, 0.0, 0.005, 2e4)
-        library.fswslv_(iwork, state, (i * 4)(2, 0, 1, 0), (d * 4)(0.0, 0.0, 1.6e5, 0.0),
-                        ctypes.byref(i(8)), ctypes.byref(n), cont, wres, ctypes.byref(info))
-        self.assertEqual((info.value, n.value), (0, 2))
-        self.assertEqual(list(wres[3:6]), list(result.force[0]))
+        pitch_rate = d()
+        for is_given, wanted in ((0, result), (1, driven)):
+            library.fsaxle_(iwork, ctypes.byref(i(is_given)), ctypes.byref(d(-1e7)),
+                            ctypes.byref(info))
+            library.fswslv_(iwork, state, (i * 4)(2, 0, 1, 0), (d * 4)(0.0, 0.0, 1.6e5, 0.0),
+                            ctypes.byref(i(8)), ctypes.byref(n), cont, wres, ctypes.byref(info))
+            self.assertEqual((info.value, n.value), (0, 2))
+            self.assertEqual(list(wres[3:6]), list(wanted.force[0]))
+            library.fsprat_(iwork, ctypes.byref(pitch_rate), ctypes.byref(info))
+            self.assertEqual(pitch_rate.value, wanted.pitch_rate)
         library.fswfre_(iwork, ctypes.byref(info))
 
     def test_the_gap_on_a_roller_is_that_of_the_program(self):

@@ -131,6 +131,26 @@ class Interfaces(HostTest):
         locked = wheelset.solve(pitch_rate=0.0, **state)
         self.assertGreater(abs(locked.force[0, 0]), 0.25 * said.force[0, 2])
 
+    def test_a_moment_about_the_axle_in_place_of_the_pitch_rate(self):
+        """The moment of a pitch rate gives it back."""
+        package = self.import_package()
+        wheelset = package.Wheelset("s1002", "uic60", inclination=0.025)
+        state = {"y": 2.0, "speed": 2e4, "axle_load": 1.6e5}
+        said = wheelset.solve(pitch_rate=-43.52, **state)
+        self.assertEqual(said.pitch_rate, -43.52)
+        moment = float(said.moment.sum(0) @ (0.0, np.cos(said.roll), np.sin(said.roll)))
+        self.assertLess(moment, -1e6)
+        found = wheelset.solve(axle_moment=moment, **state)
+        self.assertAlmostEqual(found.pitch_rate / -43.52, 1.0, delta=1e-6)
+        self.assertAlmostEqual(found.force[0, 0] / said.force[0, 0], 1.0, delta=1e-3)
+        warm = wheelset.solve(axle_moment=1.02 * moment, warm_start=True, **state)
+        self.assertLess(warm.pitch_rate, found.pitch_rate)
+        for more, words in (({"axle_moment": float("nan")}, "axle_moment must be finite"),
+                            ({"axle_moment": moment, "pitch_rate": -43.0}, "must not be given"),
+                            ({"axle_moment": 1e9}, "above what adhesion carries, [0-9.E+]+ N mm")):
+            with self.assertRaisesRegex(package.FaststripError, words):
+                wheelset.solve(**more, **state)
+
     def test_wheels_that_rotate_independently(self):
         package = self.import_package()
         wheelset = package.Wheelset()

@@ -330,7 +330,7 @@ module faststrip_command_settings_table
 
     !> How many numbers a state has.
     !> Given: as many as rows.
-    integer, parameter :: n_state = 26
+    integer, parameter :: n_state = 27
 
     ! The numbers of a state in the order of `take_state`, after the side.
     type(setting_t), parameter :: of_state(1 + n_state) = [ &
@@ -379,7 +379,10 @@ module faststrip_command_settings_table
                   default='0'), &
         setting_t('state', 'pitch_rate_difference_rad_s', a_number, &
                   'of wheels that rotate independently: left less right; the pitch rate is their' &
-                  // ' mean', default='0')]
+                  // ' mean', default='0'), &
+        setting_t('state', 'axle_moment_Nmm', a_number, 'instead of `pitch_rate_rad_s`, with' &
+                  // ' `both`: traction torque or braking moment about the axle on the' &
+                  // ' wheelset, negative drives ahead; the pitch rate is found')]
 
     !> Their names, in tables and in the group `state`.
     character(len=29), parameter :: state_names(n_state) = of_state(2:)%key

@@ -47,7 +47,8 @@ module faststrip_command_wheelset_csv
         figures(last_figures)%column, 'est_err_load', 'message', 'limitations']
 
     ! Which solution it is, and where.
-    character(len=*), parameter :: solution_columns(2) = [character(len=8) :: 'solution', 'y_mm']
+    character(len=*), parameter :: solution_columns(3) = [character(len=16) :: &
+        'solution', 'y_mm', 'pitch_rate_rad_s']
 
 contains
 
@@ -67,14 +68,14 @@ contains
     end subroutine put_wheelset_header
 
     !> One row a contact of a wheel; a wheel in the air has one row with contact 0.
-    subroutine put_wheel(writer, case, side, wheel, has_forces, solution, y)
+    subroutine put_wheel(writer, case, side, wheel, has_forces, solution, motion)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         character(len=*), intent(in) :: case        !! name of the state
         character(len=*), intent(in) :: side        !! left or right
         type(wheel_result_t), intent(in) :: wheel   !! solved
         logical, intent(in) :: has_forces           !! were creep forces asked for?
         integer, intent(in) :: solution             !! 1: of the state; 2, 3: to its left, right
-        real(wp), intent(in) :: y                   !! lateral displacement of the wheelset, mm
+        real(wp), intent(in) :: motion(2)           !! y of the wheelset, mm, its pitch rate, rad/s
 
         integer :: i
 
@@ -84,13 +85,13 @@ contains
             call put_cell(writer, i)
             call put_contact(writer, wheel, wheel%contact(i), has_forces)
             call put_cell(writer, solution)
-            call put_cell(writer, y)
+            call put_cells(writer, motion)
             call end_row(writer)
         end do
         if (wheel%n > 0) return
         call put_empty(writer, case, side, 'ok', 'no contact')
         call put_cell(writer, solution)
-        call put_cell(writer, y)
+        call put_cells(writer, motion)
         call end_row(writer)
     end subroutine put_wheel
 
@@ -102,7 +103,7 @@ contains
         type(status_t), intent(in) :: status        !! why there is none
 
         call put_empty(writer, case, side, trim(status_word(status%code)), trim(status%message))
-        call put_empty_cells(writer, 2)
+        call put_empty_cells(writer, size(solution_columns))
         call end_row(writer)
     end subroutine put_failed_state
 

@@ -22,7 +22,7 @@ module faststrip_command_wheelset_states
     integer, parameter :: at_y = 1, at_roll = 2, at_yaw = 3, at_speed = 4, at_pitch = 5, &
                           at_load = 6, at_z = 7, at_vy = 8, at_vz = 9, at_roll_rate = 10, &
                           at_yaw_rate = 11, at_curve = 12, at_moment = 13, at_rail(2) = [14, 20], &
-                          at_difference = 26
+                          at_difference = 26, at_axle = 27
 
     !> A state as it was given.
     type :: given_state_t
@@ -120,6 +120,8 @@ contains
             (given%side /= 'both' .or. given%is_given(at_roll))) &
             call set_status(status, st_bad_argument, 'roll_moment_Nmm is for both wheels and a ' &
                             // 'roll that is found')
+        if (given%is_given(at_axle) .and. given%side /= 'both') &
+            call set_status(status, st_bad_argument, 'axle_moment_Nmm is for both wheels')
         if (is_error(status)) return
         state%y = number(at_y)
         state%z = number(at_z)
@@ -136,6 +138,8 @@ contains
             state%rail(i) = rail(at_rail(i))
         end do
         if (given%is_given(at_pitch)) state%pitch_rate = number(at_pitch)
+        demand%axle_moment_is_given = given%is_given(at_axle)
+        demand%axle_moment = number(at_axle)
         demand%roll_is_free = .not. given%is_given(at_roll)
         if (given%is_given(at_z)) then
             demand%kind = demand_position

@@ -42,6 +42,8 @@ module faststrip_interop_wheelset_handle
         logical :: has(2) = .false. !! which wheels the result is of
         type(rail_state_t) :: rail(2) !! right, left: of the F77 interface, which sets them once
         real(wp) :: pitch_rate_difference = 0.0_wp !! left less right, rad/s; likewise
+        logical :: axle_moment_is_given = .false. !! likewise
+        real(wp) :: axle_moment = 0.0_wp !! of a drive or brake on the wheelset, N mm; likewise
         type(status_t) :: status      !! of the last call
         type(doubts_t) :: doubts      !! what was outside of practice in the last state
         integer(c_intptr_t) :: lookup = 0 !! handle of its lookup table; 0: none
@@ -152,6 +154,8 @@ contains
         to%has = from%has
         to%rail = from%rail
         to%pitch_rate_difference = from%pitch_rate_difference
+        to%axle_moment_is_given = from%axle_moment_is_given
+        to%axle_moment = from%axle_moment
         to%lookup = from%lookup
         to%doubts = from%doubts
         call clear_status(to%status)

@@ -86,6 +86,10 @@ module faststrip_wheelset_types
         logical :: roll_is_free = .false.                  !! is the roll found?
         real(wp) :: roll_moment = 0.0_wp
             !! moment about the wheelset's centre along the track that the frame exerts on it, N mm
+        logical :: axle_moment_is_given = .false.          !! is the pitch rate found?
+        real(wp) :: axle_moment = 0.0_wp
+            !! moment about the axle that a drive or brake exerts on the wheelset, and the contacts
+            !! of the wheels asked for carry: negative drives ahead, as the pitch rate, N mm
         real(wp) :: tolerance = 0.0_wp
             !! of `demand_loads`: misfit of the load at which its height is found; 0: as near as it
             !! comes
@@ -135,6 +139,7 @@ module faststrip_wheelset_types
     !> Figures of a wheelset.
     type :: wheelset_result_t
         type(wheel_result_t) :: wheel(2) !! right, left; those that were asked for
+        real(wp) :: pitch_rate = 0.0_wp  !! as given, of pure rolling, or found, rad/s
     end type wheelset_result_t
 
     !> Everything that one wheel's solutions need beside the model.

@@ -61,7 +61,8 @@ module faststrip_interop_c_wheelset
     !> `faststrip_wheelset_demand` of the header.
     type, bind(c) :: c_demand_t
         integer(c_int) :: kind, wheels, roll_is_free, warm_start
-        real(c_double) :: load_right, load_left, axle_load, roll_moment
+        real(c_double) :: load_right, load_left, axle_load, roll_moment, axle_moment
+        integer(c_int) :: axle_moment_is_given
     end type c_demand_t
 
     !> `faststrip_wheelset_contact` of the header.
@@ -81,6 +82,7 @@ module faststrip_interop_c_wheelset
         integer(c_int) :: status(2) = 0, n_contacts(2) = 0, n_solutions(2) = 0
         real(c_double) :: z(2) = 0, roll = 0
         real(c_double), dimension(3, 2) :: force = 0, force_wheelset = 0, moment = 0
+        real(c_double) :: pitch_rate = 0
     end type c_totals_t
 
 contains
@@ -230,6 +232,8 @@ contains
             prescribed%axle_load = wanted%axle_load
             prescribed%roll_is_free = wanted%roll_is_free /= 0
             prescribed%roll_moment = wanted%roll_moment
+            prescribed%axle_moment_is_given = wanted%axle_moment_is_given /= 0
+            prescribed%axle_moment = wanted%axle_moment
             call wheelset_solve(handle, state_of(place), prescribed, wanted%warm_start /= 0, &
                                 capacity, number)
         end if
@@ -382,6 +386,7 @@ contains
 
         do side = side_right, side_left
             if (.not. handle%has(side)) cycle
+            fields%pitch_rate = handle%result%pitch_rate
             associate (wheel => handle%result%wheel(side))
                 fields%status(side) = wheel%status%code
                 fields%n_contacts(side) = wheel%n

@@ -72,7 +72,8 @@ module faststrip_interop_f77_wheelset
     implicit none
     private
 
-    public :: fswdft, fswnew, fsrail, fsptch, fsdamp, fsroll, fswslv, fswset, fswstr, fswelm, fswlkp
+    public :: fswdft, fswnew, fsrail, fsptch, fsaxle, fsprat, fsdamp, fsroll, fswslv, fswset, &
+              fswstr, fswelm, fswlkp
     public :: fswcpy, fswfre
     public :: n_setup, read_dimensions, read_sources, find_column
 
@@ -203,6 +204,41 @@ contains
         if (info == st_ok) handle%pitch_rate_difference = difference
     end subroutine fsptch
 
+    !> CALL FSAXLE(IWORK, IGIVEN, AXLMOM, INFO)
+    !>
+    !> Say for all further calls of FSWSLV the moment about the axle that a drive or brake exerts on
+    !> the wheelset, negative to drive ahead: the wheels asked for carry it together, at a pitch
+    !> rate that is found (FSPRAT); STATE(10) must be 0. FSWNEW sets none.
+    subroutine fsaxle(iwork, is_given, moment, info) bind(c, name='fsaxle_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
+        integer(c_int), intent(in) :: is_given       !! 1 if it is given, 0 if none is
+        real(c_double), intent(in) :: moment         !! N mm
+        integer(c_int), intent(out) :: info          !! status
+
+        type(wheelset_handle_t), pointer :: handle
+
+        call find_wheelset(number_of(iwork), handle, info)
+        if (info /= st_ok) return
+        handle%axle_moment_is_given = is_given /= 0
+        handle%axle_moment = moment
+    end subroutine fsaxle
+
+    !> CALL FSPRAT(IWORK, PITCH, INFO)
+    !>
+    !> The pitch rate of the last solution: as given, of pure rolling, or found.
+    subroutine fsprat(iwork, pitch_rate, info) bind(c, name='fsprat_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
+        real(c_double), intent(out) :: pitch_rate    !! rad/s; 0 where there is no solution
+        integer(c_int), intent(out) :: info          !! status
+
+        type(wheelset_handle_t), pointer :: handle
+
+        pitch_rate = 0.0_c_double
+        call find_wheelset(number_of(iwork), handle, info)
+        if (info /= st_ok) return
+        if (any(handle%has)) pitch_rate = handle%result%pitch_rate
+    end subroutine fsprat
+
     !> CALL FSDAMP(IWORK, DAMP, VFLOOR, INFO)
     !>
     !> Set contact damping and the floor of the rolling speed: forces grow by DAMP times the
@@ -281,6 +317,8 @@ contains
             demand%axle_load = dmnd(3)
             demand%roll_is_free = idmnd(3) /= 0
             demand%roll_moment = dmnd(4)
+            demand%axle_moment_is_given = handle%axle_moment_is_given
+            demand%axle_moment = handle%axle_moment
             call wheelset_solve(handle, state_of(state, handle), demand, idmnd(4) /= 0, &
                                 capacity, n)
         end if
