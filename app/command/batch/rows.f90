@@ -66,7 +66,8 @@ contains
         call refuse_misspelt(table, penetration_column, case_columns, status)
         do i = 1, size(given_columns)
             columns%given(i) = column_index(table, given_columns(i))
-            call refuse_misspelt(table, given_columns(i), case_columns, status)
+            call refuse_misspelt(table, given_columns(i), &
+                                 [character(len=16) :: case_columns, given_columns], status)
         end do
         do i = 1, size(friction_columns)
             ! Without a kind of friction the others are carried through.

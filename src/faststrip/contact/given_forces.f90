@@ -342,8 +342,9 @@ contains
 
         if (map%law == law_linear) return
         share = size_of(map, case%given%force)/map%force
-        if (falls(case%friction) .and. share > case%friction%kinetic_share) then
-            call add_limitation(status, st_not_unique, 'where friction falls with slip, other ' // &
+        if (falls(case%friction) .and. &
+            share > case%friction%kinetic_share*case%friction%hot_share) then
+            call add_limitation(status, st_not_unique, 'where friction falls, other ' // &
                                 'creepages with more slip carry the given force, too')
         else if (share >= 1.0_wp - tolerance .and. case%creepage%cphi == 0.0_wp) then
             call add_limitation(status, st_not_unique, 'the given force is mu N: any larger ' // &

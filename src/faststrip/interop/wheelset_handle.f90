@@ -27,7 +27,8 @@ module faststrip_interop_wheelset_handle
     private
 
     public :: wheelset_handle_t
-    public :: allocate_wheelset, allocate_workspace, free_wheelset, find_wheelset, take_wheels, wheelset_solve
+    public :: allocate_wheelset, allocate_workspace, free_wheelset, find_wheelset, take_wheels
+    public :: wheelset_solve
     public :: contact_count, contact_place, find_contact, contact_mirror
     public :: copy_wheelset, pitch_rate_of, wheelset_derivatives, use_lookup
 
