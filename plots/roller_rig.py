@@ -11,7 +11,7 @@ COLUMNS = ("case", "side", "contact", "x_track_mm", "cphi_rad_per_mm", "Fx_track
 PANELS = (("x_track_mm", "contact ahead of the axle, mm", 1.0),
           ("cphi_rad_per_mm", "spin, 1/m", 1e3),
           ("Fx_track_N", "$F_x$ on the rail along the track, kN", 1e-3),
-          ("Fy_track_N", "$F_y$ on the rail along the track, kN", 1e-3))
+          ("Fy_track_N", "$F_y$ on the rail across the track, kN", 1e-3))
 LOOKS = {"right": style.NORMAL["strip"], "left": style.NORMAL["hertz"]}
 BODIES = (("rollers", "-"), ("rails", ":"))
 
