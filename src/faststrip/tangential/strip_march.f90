@@ -66,7 +66,7 @@ module faststrip_tangential_strip_march
         integer :: n = 0               !! elements of a strip
         real(wp) :: alpha = 0.0_wp     !! of the law
         real(wp) :: factor = 1.0_wp    !! that makes its sum pi/4 n
-        real(wp) :: thickness((most_points + 1)/2) !! (1 - t^2)^m at the first half of the elements
+        real(wp) :: thickness(most_points/2 + 1) !! (1 - t^2)^m at the first half of the elements
     end type bound_t
 
     !> Strips side by side.
