@@ -47,7 +47,7 @@ def main(table):
     if not stress[at] > 0.0:
         raise InputError(f"no stress in {table.path}")
     figure = style.new_figure(9.2, 4.4)
-    panels = figure.subplots(1, 2, sharey=True)
+    panels = figure.subplots(1, 2, sharey=True, width_ratios=(np.ptp(x), np.ptp(y)))
     for axes, (along, other, name) in zip(panels, ((x, y, "x (rolling)"), (y, x, "y"))):
         inside = other == other[at]
         drawn = draw(axes, section(along[inside], z[inside], stress[inside], table.path), levels,
