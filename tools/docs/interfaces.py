@@ -20,7 +20,8 @@ C = (
     ("status", "Status, messages, version",
      "version message last_message status doubt VERSION TEXT wheelset_last_message"),
     ("case", "Cases and workspaces",
-     "case workspace normal tangential target friction default_case check_case new free copy"),
+     "case workspace normal tangential target friction places default_case check_case new free"
+     " copy"),
     ("solve", "Gaps and solutions", "set_gap gap solve result"),
     ("details", "Strips, elements, derivatives, wear", "get_ wear_law"),
     ("formulas", "Hertz, FASTSIM, Kalker's coefficients", "fastsim hertz kalker"),
