@@ -179,7 +179,7 @@ class Settings(ProgramTest):
             for bad, is_bad in (("-0.5", " 0" in words or "whole" in words or "or" in words),
                                 ("0", "above 0" in words or "whole" in words and " or " not in
                                  words), ("0.5", "below 0.5" in words),
-                                ("1.5", "most 1" in words or "to 1" in words or "whole" in words),
+                                ("1.5", re.search(r"(most|to) 1\b", words) or "whole" in words),
                                 ("-3", "whole" in words), ("1001", re.search(r"to 1000\b", words)),
                                 ("99999999", "to 1000" in words or "to 2000" in words),
                                 ("-0.0", "number above 0" in words), ("nan", "number" in words),

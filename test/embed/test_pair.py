@@ -257,7 +257,8 @@ class Pair(HostTest):
         random = np.random.default_rng(1).uniform(0.9, 1.1, (200, 30))
         results = [
             flash, auto, auto.steps[0], solver.strips(), solver.elements(), solver.wear(law),
-            solver.strip_wear(law), gap, functions, functions.conicity(np.linspace(0.5, 4.0, 99)),
+            solver.strip_wear(law), solver.stresses(many, 0.0, 1.0), solver.stress_peak(), gap,
+            functions, functions.conicity(np.linspace(0.5, 4.0, 99)),
             f.Profile(many, many, "wheel", "long/" * 99, "format", "message " * 99), wheels,
             wheels.contacts[0], looked,
             f.WheelContacts(random, np.arange(99, dtype=np.int32), np.arange(99, dtype=np.int32)),
