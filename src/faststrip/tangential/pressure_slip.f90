@@ -75,7 +75,8 @@ contains
         integer :: at, j
 
         y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
-        do at = 1, n_nodes
+        ! With x the real part of what is summed changes its sign, the imaginary one stays.
+        do at = 1, (n_nodes + 1)/2
             x = strips%half_length(k)*node(at)
             total = 0.0_wp
             do j = 1, strips%n
@@ -88,6 +89,8 @@ contains
             ! Times i: the real part of i z is -Im z, the imaginary one Re z.
             slip_x(at) = -factor*aimag(total)
             slip_y(at) = -factor*real(total)
+            slip_x(n_nodes + 1 - at) = slip_x(at)
+            slip_y(n_nodes + 1 - at) = merge(slip_y(at), -slip_y(at), 2*at > n_nodes)
         end do
     end subroutine find_pressure_slip
 
@@ -95,7 +98,12 @@ contains
     elemental complex(wp) function w(zeta)
         complex(wp), intent(in) :: zeta
 
-        w = 1.0_wp/(zeta + sqrt(zeta - 1.0_wp)*sqrt(zeta + 1.0_wp))
+        complex(wp) :: root
+
+        ! Of both roots that on the side of zeta.
+        root = sqrt((zeta - 1.0_wp)*(zeta + 1.0_wp))
+        if (real(zeta)*real(root) + aimag(zeta)*aimag(root) < 0.0_wp) root = -root
+        w = 1.0_wp/(zeta + root)
     end function w
 
     !> Weights of the nodes for a place between them: Lagrange's polynomial.

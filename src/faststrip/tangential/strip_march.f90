@@ -134,13 +134,14 @@ contains
         end do
         all = 0.0_wp
         do i = 1, points
-            all = all + bound_at(bound, i)
+            all = all + bound_at(bound, i, real(points - 2*i + 1, wp)/points)
         end do
         bound%factor = 0.25_wp*pi*points/all
         off_centre = 0.0_wp
         do i = 1, points/2
             t = real(points - 2*i + 1, wp)/points
-            off_centre = off_centre + t*(bound_at(bound, i) - bound_at(bound, points + 1 - i))
+            off_centre = off_centre + t*(bound_at(bound, i, t) &
+                                         - bound_at(bound, points + 1 - i, -t))
         end do
         off_centre = off_centre/(0.25_wp*pi*points)
         lanes = most_lanes
@@ -159,13 +160,11 @@ contains
     end subroutine march_strips
 
     !> The bound at the middle of an element, over mu p0.
-    elemental real(wp) function bound_at(bound, i)
+    pure real(wp) function bound_at(bound, i, t)
         type(bound_t), intent(in) :: bound
-        integer, intent(in) :: i ! from the leading edge on
+        integer, intent(in) :: i  ! from the leading edge on
+        real(wp), intent(in) :: t ! its place over half-length
 
-        real(wp) :: t
-
-        t = real(bound%n - 2*i + 1, wp)/bound%n
         bound_at = bound%thickness(min(i, bound%n + 1 - i))*(1.0_wp - bound%alpha*t)*bound%factor
     end function bound_at
 
@@ -192,7 +191,7 @@ contains
                 ahead_y = block%py
             end if
             if (is_pressed(rolling)) call press(block, t + 0.5_wp*step, pressed)
-            call advance(block, t, step, bound_at(bound, i), rolling%creepage%cphi)
+            call advance(block, t, step, bound_at(bound, i, t), rolling%creepage%cphi)
             if (is_pressed(rolling)) call note_pressed(block, pressed)
             if (present(field)) call note_elements(block, strips, rolling%creepage, ahead_x, &
                                                    ahead_y, i, n, field)
@@ -229,9 +228,10 @@ contains
             ahead_x = block%px
             ahead_y = block%py
             if (is_pressed(rolling)) call press(block, t + 0.5_wp*step, pressed)
-            call advance(block, t, step, bound_at(bound, i), rolling%creepage%cphi)
-            all = all + bound_at(bound, i)
-            call follow_slip(block, rolling, i, bound_at(bound, i), ahead_x, ahead_y, fall, sums)
+            call advance(block, t, step, bound_at(bound, i, t), rolling%creepage%cphi)
+            all = all + bound_at(bound, i, t)
+            call follow_slip(block, rolling, i, bound_at(bound, i, t), ahead_x, ahead_y, &
+                             fall, sums)
             if (is_pressed(rolling)) call note_pressed(block, pressed)
             if (present(field)) call note_elements(block, strips, rolling%creepage, ahead_x, &
                                                    ahead_y, i, n, field)
