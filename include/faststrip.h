@@ -186,6 +186,9 @@ typedef struct faststrip_case {
     double density_rail;  /* the same */
     double temperature_wheel; /* away from the contact, C */
     double temperature_rail; /* the same */
+    int curved;           /* 1: strips lie on the curved surface, each with its own plane; needs the
+                           * inclination of the gap; load is then the force along the normal of the
+                           * contact, of pressures and tractions together */
 } faststrip_case;
 
 /* Figures of one contact. Estimated errors are not negative; the depth is the penetration less the

@@ -162,6 +162,7 @@ class Case(ctypes.Structure):
         *members(c_double, "conductivity_wheel", "conductivity_rail", "heat_capacity_wheel",
                  "heat_capacity_rail", "density_wheel", "density_rail", "temperature_wheel",
                  "temperature_rail"),
+        *members(c_int, "curved"),
     ]
 
 

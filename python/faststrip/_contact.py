@@ -173,7 +173,8 @@ FASTSIM_NAMES = ("a", "b", "shear_modulus", "coefficients[0]", "coefficients[1]"
 
 
 def new_case(normal: Any, tangential: Any, strips_per_patch: Any, points_per_strip: Any,
-             fastsim_grid: Any, estimate: Any, resolution_limit: Any, force_limit: Any) -> Case:
+             fastsim_grid: Any, estimate: Any, resolution_limit: Any, force_limit: Any,
+             curved: Any) -> Case:
     """A case with methods and how errors are estimated; the rest is as the library has it."""
     case = Case()
     check(library.faststrip_default_case(ctypes.byref(case), ctypes.sizeof(Case)))
@@ -187,6 +188,7 @@ def new_case(normal: Any, tangential: Any, strips_per_patch: Any, points_per_str
     case.estimate = flag("estimate", estimate)
     case.resolution_limit = above_zero("resolution_limit", resolution_limit)
     case.force_limit = above_zero("force_limit", force_limit)
+    case.curved = flag("curved", curved)
     return case
 
 
@@ -316,19 +318,23 @@ class Contact:
     resolution_limit, force_limit : float
         A result with an estimated relative error of penetration, pmax or area above the first, or
         an estimated error of its forces above the second, is called ``under_resolved``.
+    curved : bool
+        Do strips lie on the curved surface, each with its own plane? Gaps need an inclination
+        then; the load is the force along the normal of the contact.
     """
 
     def __init__(self, *, normal: str = "strip", tangential: str = "faststrip",
                  strips_per_patch: Union[int, str] = 15, points_per_strip: int = 15,
                  fastsim_grid: Tuple[int, int] = (50, 50), with_elements: bool = False,
                  max_points: int = 1000, estimate: bool = True,
-                 resolution_limit: float = 0.1, force_limit: float = 0.1) -> None:
+                 resolution_limit: float = 0.1, force_limit: float = 0.1,
+                 curved: bool = False) -> None:
         self._workspace: Optional[Handle] = None
         self._closed = False
         self._material: Any = Material  # that is in the case; none yet
         self._friction: Any = CONSTANT  # that is in the case
         case = self._case = new_case(normal, tangential, strips_per_patch, points_per_strip,
-                                     fastsim_grid, estimate, resolution_limit, force_limit)
+                                     fastsim_grid, estimate, resolution_limit, force_limit, curved)
         case.with_elements = flag("with_elements", with_elements)
         self._reserve(whole("max_points", max_points, *GAP_POINTS))
 

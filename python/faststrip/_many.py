@@ -288,6 +288,7 @@ def solve_many(gaps: Any, *, load: Optional[npt.ArrayLike] = None,
                tangential: str = "faststrip", strips_per_patch: Union[int, str] = 15,
                points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
                estimate: bool = True, resolution_limit: float = 0.1, force_limit: float = 0.1,
+               curved: bool = False,
                target: Optional[str] = None, tolerance: Optional[float] = None,
                budget_us: Optional[float] = None, warm_start: bool = False, chain: int = 100,
                threads: Optional[int] = None) -> ManyResult:
@@ -318,7 +319,7 @@ def solve_many(gaps: Any, *, load: Optional[npt.ArrayLike] = None,
         Rolling speed, mm/s, contact angle, rad, and where y = 0 is on the profile of the rail, mm,
         for friction that needs them.
     material, friction, normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, \
-estimate, resolution_limit, force_limit, target, tolerance, budget_us
+estimate, resolution_limit, force_limit, curved, target, tolerance, budget_us
         As of `Contact` and `Contact.solve`, the same for all contacts.
     warm_start : bool
         Start each contact from the one before it, along the last axis first, which is faster
@@ -351,7 +352,7 @@ estimate, resolution_limit, force_limit, target, tolerance, budget_us
     [-7.4, -12.1]
     """
     case = new_case(normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, estimate,
-                    resolution_limit, force_limit)
+                    resolution_limit, force_limit, curved)
     if (load is None) == (penetration is None):
         raise bad_argument("one of load and penetration must be given, got "
                            + ("none" if load is None else "both"))

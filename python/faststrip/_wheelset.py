@@ -372,7 +372,8 @@ class Wheelset:
     mu : float
         Coefficient of friction.
     friction, material, normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, \
-with_elements, estimate, resolution_limit, force_limit, target, tolerance, budget_us, thermal
+with_elements, estimate, resolution_limit, force_limit, curved, target, tolerance, budget_us, \
+thermal
         As of `Contact` and `Contact.solve`.
 
     Examples
@@ -395,7 +396,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
                  tangential: str = "faststrip", strips_per_patch: int = 15,
                  points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
                  with_elements: bool = False, estimate: bool = True, resolution_limit: float = 0.1,
-                 force_limit: float = 0.1, target: Optional[str] = None,
+                 force_limit: float = 0.1, curved: bool = False, target: Optional[str] = None,
                  tolerance: Optional[float] = None, budget_us: Optional[float] = None,
                  thermal: Optional[Thermal] = None) -> None:
         self._handle: Optional[Handle] = None
@@ -403,7 +404,7 @@ with_elements, estimate, resolution_limit, force_limit, target, tolerance, budge
         self._n_contacts = 0
         case = new_case(normal, tangential, whole("strips_per_patch", strips_per_patch, 1,
                                                   MOST_STRIPS), points_per_strip, fastsim_grid,
-                        estimate, resolution_limit, force_limit)
+                        estimate, resolution_limit, force_limit, curved)
         case.with_elements = flag("with_elements", with_elements)
         case.mu = number("mu", mu)
         take_friction(case, friction)

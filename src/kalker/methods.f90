@@ -12,7 +12,7 @@ module faststrip_kalker_methods
                                      st_workspace_too_small
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: reserve_gap_curve
-    use faststrip_normal_limitations, only: name_resolution, name_force_resolution
+    use faststrip_normal_limitations, only: name_resolution, name_conformal, name_force_resolution
     use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_strips, only: usual_strips
     use faststrip_normal_types, only: normal_result_t
@@ -214,6 +214,7 @@ contains
             end if
             if (.not. is_error(status)) call take_rows(memory, workspace, status)
             if (is_error(status)) return
+            call name_conformal(curve, workspace%strips, status)
             if (keeps_elements(case)) then
                 ! For methods that march along the rows.
                 call grow_field(workspace, case, workspace%strips%n*methods%points_per_strip, &
@@ -237,6 +238,7 @@ contains
         strips = case
         strips%gap = gap_t()
         strips%estimate = .false.
+        strips%curved = .false.
         strips%asked = asked_t()
         strips%methods%normal = normal_strip
         strips%methods%tangential = tangential_none

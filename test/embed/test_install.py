@@ -15,6 +15,7 @@ FORBIDDEN = re.compile(r"gsl|fftw", re.IGNORECASE)
 NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadmath", "libc",
           "ld-linux-x86-64"}
 F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt"
+                " fscurv fsgapt"
                 " fserrs fsferr fslset fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast"
                 " fsints fswdft fswnew fsrail fsptch fsaxle fsprat fsdamp fswslv fswset fswstr"
                 " fswelm fswstw fsroll fsrprf fswcpy fswfre fsderv fswdrv"

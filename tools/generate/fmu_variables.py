@@ -54,6 +54,7 @@ fastsim_ny      contact.fastsim_ny   INTEGER     rows, FASTSIM
 estimate        contact.estimate     BOOLEAN     are errors estimated, for the statuses?
 resolution_limit contact.resolution_limit - estimated error above which pressures have a status
 force_limit     contact.force_limit  -    the same of the forces
+curved          contact.curved       BOOLEAN     do strips lie on the curved surface?
 target          contact.target       target      what the normal method auto is to know
 tolerance       contact.tolerance    -    largest estimated error of the target
 e_wheel         contact.e_wheel      MPa  Young's modulus of the wheels

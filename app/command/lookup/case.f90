@@ -29,6 +29,8 @@ contains
         if (case%bodies%track%roller_radius > 0.0_wp) &
             call fail(exit_bad_input, 'a lookup table is for rails: &rail roller_radius_mm must ' &
                       // 'not be given (' // path // ')')
+        if (case%curved) call fail(exit_bad_input, 'a lookup table has no contacts on a curved ' &
+            // 'surface: curved must not be given (' // path // ')')
         if (case%asked%temperatures) call fail(exit_bad_input, 'a lookup table has no ' &
             // 'temperatures: &thermal must not be given (' // path // ')')
         if (falls(case%friction) .or. case%friction%slope_factor < 1.0_wp .or. &

@@ -84,6 +84,7 @@ contains
             case ('resolution_limit'); choice%resolution_limit = value%number
             case ('force_limit'); choice%force_limit = value%number
             case ('subsurface'); choice%asked%subsurface = value%flag
+            case ('curved'); choice%curved = value%flag
             case ('yield_MPa'); choice%yield = value%number
             case ('yield_shear_MPa'); choice%yield_shear = value%number
             case ('smoothing_um'); choice%smoothing = mm_per_um*value%number

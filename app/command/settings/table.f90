@@ -275,6 +275,9 @@ module faststrip_command_settings_table
         setting_t('numerics', 'force_limit', a_number, &
                   'the same of est_err_Fx, _Fy, _Mz', range=above_0, default='0.1', &
                   option='--force-limit', value_name='E'), &
+        setting_t('numerics', 'curved', a_flag, &
+                  'strips on the curved surface, each with its own plane', default='.false.', &
+                  option='--curved'), &
         setting_t('numerics', 'subsurface', a_flag, &
                   'find the largest von Mises stress of the rail', default='.false.', &
                   option='--subsurface'), &

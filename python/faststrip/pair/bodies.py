@@ -45,6 +45,7 @@ class Options(TypedDict, total=False):
     estimate: bool
     resolution_limit: float
     force_limit: float
+    curved: bool
     target: str
     tolerance: float
     budget_us: float

@@ -21,7 +21,7 @@ module faststrip_contact_auto
     use faststrip_normal_strips, only: contact_strips_t, copy_strips, last_of_patch, usual_strips
     use faststrip_tangential_force_errors, only: estimate_force_errors, &
                                                  errors_of_fitted
-    use faststrip_contact_case, only: contact_case_t, keeps_elements
+    use faststrip_contact_case, only: contact_case_t, keeps_elements, wants_strip_forces
     use faststrip_contact_clock, only: now, since, lap_t, start_lap, add_lap
     use faststrip_contact_grids, only: plan_of_finer, follow_on, most_grids
     use faststrip_contact_method, only: workspace_t, contact_result_t, normal_method_of, &
@@ -191,17 +191,11 @@ contains
         search%case%creepage = case%creepage
         search%case%given = case%given
         search%case%asked%strip_forces = wants_strip_forces(case)
+        search%case%curved = case%curved
         ! What is under resolved for the target is reported in the end.
         search%case%resolution_limit = huge(1.0_wp)
         search%case%force_limit = huge(1.0_wp)
     end subroutine begin_search
-
-    !> Are sums over strips wanted, for themselves or for wear?
-    pure logical function wants_strip_forces(case)
-        type(contact_case_t), intent(in) :: case
-
-        wants_strip_forces = case%asked%strip_forces .or. case%wear_law%n > 0
-    end function wants_strip_forces
 
     !> Take steps until the estimate is met or nothing more would help.
     subroutine climb(search, workspace, warm_start, status)

@@ -17,6 +17,7 @@ module faststrip_contact_case
     private
 
     public :: contact_case_t, contact_terms_t, asked_t, given_forces_t, keeps_elements
+    public :: wants_strip_forces
 
     !> What a solution shall hold besides its figures.
     type :: asked_t
@@ -52,6 +53,13 @@ module faststrip_contact_case
         type(contact_methods_t) :: methods !! methods and resolutions
         type(wanted_t) :: wanted           !! of normal method auto: target, tolerance, budget
         type(asked_t) :: asked             !! what the solution shall hold besides its figures
+        logical :: curved = .false.
+            !! has each strip its own plane? The load given is then the force along the normal of
+            !! the contact, of pressures and tractions together
+        real(wp) :: pitch = 0.0_wp
+            !! of a curved surface on the outline of a wheelset: how rail and wheel turn against
+            !! each other about y, over the rolling speed, rad/mm; 0: as `inv2r` of the gap at
+            !! y = 0 says, the middles of all strips at x = 0
         real(wp) :: smoothing = 0.0_wp
             !! noise that the gap is smoothed for, mm; 0: not at all. Allocates; not of the gap of
             !! `set_contact_gap`
@@ -86,4 +94,11 @@ contains
         keeps_elements = case%asked%field .or. case%asked%temperatures .or. &
                          case%asked%subsurface .and. case%methods%tangential /= tangential_none
     end function keeps_elements
+
+    !> Are sums over strips wanted, for themselves, for wear or for a curved surface?
+    pure logical function wants_strip_forces(case)
+        class(contact_terms_t), intent(in) :: case !! as the caller set it
+
+        wants_strip_forces = case%asked%strip_forces .or. case%wear_law%n > 0 .or. case%curved
+    end function wants_strip_forces
 end module faststrip_contact_case

@@ -23,6 +23,7 @@ module faststrip_contact_parts
                                         normal_method_t, tangential_method_t, normal_method_of, &
                                         tangential_method_of
     use faststrip_contact_method_friction, only: take_friction
+    use faststrip_contact_method_surface, only: lay_strips, flatten_load, turn_forces
     use faststrip_contact_methods, only: contact_methods_t, method_t, normal_auto, &
                                          tangential_none, check_normal_method, &
                                          check_tangential_method, check_resolutions
@@ -109,6 +110,9 @@ contains
             call check_given_forces(case%given, case%creepage, tangential%about, status)
         if (case%asked%temperatures .and. .not. is_error(status)) &
             call check_heat(case, tangential%about, status)
+        if (case%curved .and. case%given%is_given(2) .and. .not. is_error(status)) &
+            call set_status(status, st_bad_argument, 'a lateral force cannot be given on a ' // &
+                            'curved surface, where pressures have a part of it')
     end subroutine check_contact
 
     !> Refuse friction that is none, and friction that falls with slip where the method cannot do.
@@ -186,6 +190,12 @@ contains
         call method%solve(workspace, case, result%normal, status)
         if (is_error(status)) return
         call add_lap(case%asked%times, lap, result%times%normal_us, result%times%normal_cpu_us)
+        call lay_strips(workspace%solver%curve, case, workspace%strips)
+        if (case%curved) then
+            workspace%strip_forces%n = 0
+            result%tangential = tangential_result_t()
+            call turn_forces(workspace, result)
+        end if
         workspace%solved_by = case%methods%normal
         workspace%methods = case%methods
         if (case%estimate) call method%estimate(workspace, case, result, status)
@@ -216,6 +226,8 @@ contains
         call check_forces(workspace, case, method%about, status)
         if (is_error(status)) return
         call start_lap(case%asked%times, lap)
+        call flatten_load(result)
+        call lay_strips(workspace%solver%curve, case, workspace%strips)
         call take_friction(workspace, case)
         result%mu = workspace%mu
         if (.not. (case%warm_start .or. case%stays)) workspace%found%is_known = .false.
@@ -228,6 +240,9 @@ contains
         call add_lap(case%asked%times, lap, result%times%tangential_us, &
                      result%times%tangential_cpu_us)
         workspace%methods%tangential = case%methods%tangential
+        ! Tractions of dissimilar materials may have changed the pressures.
+        call lay_strips(workspace%solver%curve, case, workspace%strips)
+        call turn_forces(workspace, result)
         result%has_forces = case%methods%tangential /= tangential_none
         result%knows_stick = result%has_forces .and. method%about%gives_stick
     end subroutine find_forces

@@ -8,7 +8,7 @@
 module faststrip_contact_solve
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, add_limitation, number_text, &
-                                     st_beyond_yield
+                                     st_beyond_yield, st_target_missed
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_geometry_gap_curve, only: gap_curve_t, set_gap_curve_points, copy_gap_curve
     use faststrip_contact_auto, only: solve_auto
@@ -19,6 +19,8 @@ module faststrip_contact_solve
     use faststrip_contact_method_capacity, only: ellipse_strips
     use faststrip_contact_method_heat, only: find_heat
     use faststrip_contact_method_loads, only: find_stress_peak
+    use faststrip_contact_method_surface, only: check_surface, add_pressure_errors, &
+                                                add_turn_errors
     use faststrip_contact_methods, only: contact_methods_t, normal_hertz, tangential_none
     use faststrip_contact_parts, only: check_methods, check_contact, set_case_gap, &
                                        find_normal_method, find_tangential_method, &
@@ -31,6 +33,13 @@ module faststrip_contact_solve
 
     public :: set_contact_gap, set_contact_curve, set_contact_ellipse
     public :: solve_contact, solve_contact_forces, estimate_contact, name_yield
+
+    ! Tuned [1]: of the load, how near pressures on a curved surface come to it. Origin: as the
+    ! strips' last step.
+    real(wp), parameter :: near_load = 1.0e-6_wp
+    ! Tuned [solutions]: of pressures whose turned force is the load. Origin: safeguard: three or
+    ! four are taken.
+    integer, parameter :: most_loads = 12
 
 contains
 
@@ -110,7 +119,8 @@ contains
         type(status_t), intent(out) :: status
             !! those of `strip_solve`, `hertz_solve_gap`, `replace_by_ellipses`,
             !! `faststrip_tangential_solve`, `fastsim_solve`, `check_material`, `check_gap`,
-            !! `solve_auto`, `smooth_gap`, `find_heat`, `take_loads`; `st_beyond_yield`
+            !! `solve_auto`, `smooth_gap`, `find_heat`, `take_loads`, `check_surface`;
+            !! `st_beyond_yield`; `st_target_missed`: the load, on a curved surface
 
         class(normal_method_t), pointer :: normal
         class(tangential_method_t), pointer :: tangential
@@ -126,16 +136,20 @@ contains
         if (.not. is_error(status)) then
             call start_lap(case%asked%times, lap)
             call set_case_gap(workspace, case, result%gap_change, status)
+            if (case%curved .and. .not. is_error(status)) &
+                call check_surface(workspace%solver%curve, status)
             call add_lap(case%asked%times, lap, result%times%normal_us, &
                          result%times%normal_cpu_us)
         end if
         if (is_error(status)) then
             continue
-        else if (associated(normal)) then
-            call solve_by_methods(workspace, case, normal, tangential, result, status)
+        else if (case%curved .and. case%by_load) then
+            call solve_for_load(workspace, case, normal, tangential, result, status)
         else
-            call solve_auto(workspace, case, tangential, result, status)
+            call solve_by_methods(workspace, case, normal, tangential, result, status)
         end if
+        call add_pressure_errors(workspace, case, result, status)
+        call add_turn_errors(workspace, case, result, status)
         if (.not. is_error(status)) call find_heat(workspace, case, result, status)
         if (case%asked%subsurface .and. .not. is_error(status)) &
             call find_stress_peak(workspace, case, result, status)
@@ -151,15 +165,46 @@ contains
     subroutine solve_by_methods(workspace, case, normal, tangential, result, status)
         type(workspace_t), intent(inout) :: workspace
         type(contact_case_t), intent(in) :: case
-        class(normal_method_t), intent(in) :: normal
-        class(tangential_method_t), intent(in) :: tangential
+        class(normal_method_t), pointer, intent(in) :: normal ! null if it is auto
+        class(tangential_method_t), pointer, intent(in) :: tangential
         type(contact_result_t), intent(inout) :: result
         type(status_t), intent(out) :: status
 
+        if (.not. associated(normal)) then
+            call solve_auto(workspace, case, tangential, result, status)
+            return
+        end if
         call find_pressures(workspace, case, normal, result, status)
         if (is_error(status) .or. case%methods%tangential == tangential_none) return
         call add_forces(workspace, case, tangential, result, status)
     end subroutine solve_by_methods
+
+    ! The pressures whose force along the normal of the contact, turned and with tractions, is the
+    ! load.
+    subroutine solve_for_load(workspace, case, normal, tangential, result, status)
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(in) :: case
+        class(normal_method_t), pointer, intent(in) :: normal ! null if it is auto
+        class(tangential_method_t), pointer, intent(in) :: tangential
+        type(contact_result_t), intent(inout) :: result
+        type(status_t), intent(out) :: status
+
+        type(contact_case_t) :: turned
+        integer :: i
+
+        turned%contact_terms_t = case%contact_terms_t
+        do i = 1, most_loads
+            call solve_by_methods(workspace, turned, normal, tangential, result, status)
+            if (is_error(status)) return
+            if (abs(result%normal%load - case%load) <= near_load*case%load) return
+            if (.not. result%normal%load > 0.0_wp) exit
+            turned%load = turned%load*(case%load/result%normal%load)
+            turned%warm_start = .true.
+        end do
+        call add_limitation(status, st_target_missed, 'the force along the normal of the ' // &
+                            'contact is not the load, but ' // &
+                            trim(number_text(result%normal%load)) // ' N')
+    end subroutine solve_for_load
 
     !> The tangential problem on the workspace's normal solution: other creepages, friction, method
     !> or resolution without solving the normal problem again.
@@ -176,6 +221,7 @@ contains
         call hold_environment(environment)
         call check_methods(workspace, case%methods, normal, tangential, status)
         if (.not. is_error(status)) call add_forces(workspace, case, tangential, result, status)
+        call add_turn_errors(workspace, case, result, status)
         if (case%asked%subsurface) call find_stress_peak(workspace, case, result, status)
         if (.not. is_error(status)) call find_wear(workspace, case, result)
         if (.not. is_error(status)) call find_heat(workspace, case, result, status)
@@ -202,6 +248,8 @@ contains
             call normal%estimate(workspace, case, result, status)
             if (result%is_estimated .and. case%methods%tangential /= tangential_none) &
                 call tangential%estimate(workspace, case, result, status)
+            call add_pressure_errors(workspace, case, result, status)
+            call add_turn_errors(workspace, case, result, status)
         end if
         call restore_environment(environment)
     end subroutine estimate_contact

@@ -2,6 +2,7 @@
 module faststrip_contact_wear
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: clear_status, is_error
+    use faststrip_tangential_types, only: tangential_result_t
     use faststrip_tangential_wear_law, only: find_strip_wear
     use faststrip_tangential_wear_numbers, only: t_gamma, t_gamma_with_spin, surface_fatigue_index
     use faststrip_contact_case, only: contact_case_t
@@ -19,17 +20,26 @@ contains
         type(contact_case_t), intent(in) :: case        !! law, yield stress in shear
         type(contact_result_t), intent(inout) :: result !! with forces; gets the figures
 
+        type(tangential_result_t) :: tangential
+        real(wp) :: load
+
         if (is_error(workspace%wear_status)) call clear_status(workspace%wear_status)
         if (.not. result%has_forces) return
-        associate (figures => result%wear, normal => result%normal, &
-                   tangential => result%tangential, n => workspace%strips%n, &
-                   found => workspace%strip_wear)
+        ! Tractions rub along the surface, whatever the frame of the contact.
+        tangential = result%tangential
+        load = result%normal%load
+        if (result%is_curved) then
+            tangential = result%along
+            load = result%along_load
+        end if
+        associate (figures => result%wear, area => result%normal%area, &
+                   n => workspace%strips%n, found => workspace%strip_wear)
             figures%t_gamma = t_gamma(tangential, result%creepage)
             figures%t_gamma_spin = t_gamma_with_spin(tangential, result%creepage)
-            figures%t_gamma_per_area = figures%t_gamma/normal%area
+            figures%t_gamma_per_area = figures%t_gamma/area
             figures%knows_fatigue = case%yield_shear > 0.0_wp
             if (figures%knows_fatigue) figures%fatigue_index = surface_fatigue_index( &
-                tangential, normal%load, normal%area, case%yield_shear)
+                tangential, load, area, case%yield_shear)
             if (case%wear_law%n == 0 .or. workspace%strip_forces%n /= n) return
             call find_strip_wear(case%wear_law, workspace%strips, workspace%strip_forces, &
                                  found%t_gamma_per_area(:n), found%mass(:n), &

@@ -8,7 +8,8 @@
 !> - flat along x: somewhere in the contact A was not positive, or below 3 % of the geometric mean
 !>   of the gap, and was raised to that. The patch there is as long as this makes it;
 !> - half-space doubtful: a slope of the gap above 0.2 across a strip or at its tip, or
-!>   surfaces whose inclination changes by more than 20 degrees over it. A half-space takes surfaces
+!>   surfaces whose inclination changes by more than 20 degrees over the contact, from patch to
+!>   patch too: all have one plane. A half-space takes surfaces
 !>   for planes and moves them along one normal; the slope's square, 4 %, is what is left out. The
 !>   gap does not tell by how much the surfaces turn together, as wheel flange and rail corner do:
 !>   that takes `gap_t%inclination`, which gaps made from profiles have. Likewise a step of the gap
@@ -37,13 +38,14 @@ module faststrip_normal_limitations
                                      st_under_resolved, st_no_finite_patch, st_out_of_range, &
                                      first_error
     use faststrip_geometry_gap, only: min_gap_points
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, inclination_change, &
-                                            largest_step
-    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_inv2r, gap_inclination, &
+                                            inclination_change, largest_step
+    use faststrip_normal_strips, only: contact_strips_t, ends_patch
     implicit none
     private
 
     public :: check_curvature, check_depth, check_lowest, name_limitations, name_steps, name_step
+    public :: name_conformal, turn_of_contact, doubtful_inclination
     public :: name_resolution, name_force_resolution
     public :: default_resolution, check_resolution
 
@@ -56,8 +58,8 @@ module faststrip_normal_limitations
     ! Tuned [1]: Slope from which the half-space is doubtful. Origin: its square, 4 %, is what a
     ! half-space leaves out.
     real(wp), parameter :: doubtful_slope = 0.2_wp
-    ! Tuned [rad]: Change of inclination from which the half-space is doubtful. Origin: as
-    ! doubtful_slope, of two normals.
+    !> Change of inclination from which the half-space is doubtful.
+    !> Tuned [rad]. Origin: as doubtful_slope, of two normals.
     real(wp), parameter :: doubtful_inclination = 20.0_wp*pi/180.0_wp
     ! Height of a step over the penetration. Lower ones change it by less than 0.5 %.
     ! Tuned [1]. Origin: as said with it.
@@ -210,8 +212,8 @@ contains
         type(status_t), intent(inout) :: status      !! limitations so far, no error
 
         character(len=message_length) :: words
-        real(wp) :: lowest, highest, y, h_left, h_right, inv2r, slope, inclination
-        integer :: k, first
+        real(wp) :: lowest, highest, inv2r
+        integer :: k
 
         if (strips%n < 1) return
         if (strips%y_left(1) <= curve%y(1) .or. strips%y_right(strips%n) >= curve%y(curve%n)) &
@@ -219,24 +221,10 @@ contains
                                 'the contact runs to the end of the gap data')
         lowest = huge(1.0_wp)
         highest = -huge(1.0_wp)
-        slope = 0.0_wp
-        inclination = 0.0_wp
-        first = 1
         do k = 1, strips%n
-            y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
-            call gap_at(curve, strips%y_left(k), h_left, inv2r)
-            call gap_at(curve, strips%y_right(k), h_right, inv2r)
-            slope = max(slope, abs(h_right - h_left)/(strips%y_right(k) - strips%y_left(k)))
-            inv2r = gap_inv2r(curve, y)
+            inv2r = gap_inv2r(curve, 0.5_wp*(strips%y_left(k) + strips%y_right(k)))
             lowest = min(lowest, inv2r)
             highest = max(highest, inv2r)
-            slope = max(slope, 2.0_wp*max(inv2r, 0.0_wp)*min(strips%half_length(k), largest_size))
-            if (k < strips%n) then
-                if (strips%patch(k + 1) == strips%patch(k)) cycle
-            end if
-            inclination = max(inclination, inclination_change(curve, strips%y_left(first), &
-                                                              strips%y_right(k)))
-            first = k + 1
         end do
         if (highest <= 0.0_wp) then
             call set_status(status, st_no_finite_patch, 'inv2r is positive nowhere in the ' &
@@ -249,18 +237,65 @@ contains
             call add_words(words, ' 1/mm in the contact raised to '//number_text(curve%least_inv2r))
             call add_limitation(status, st_flat_along_x, words)
         end if
-        if (inclination > doubtful_inclination) then
+        call name_conformal(curve, strips, status)
+    end subroutine name_limitations
+
+    !> Add to a status that surfaces turn or the gap is steep in the contact: `st_conformal`.
+    pure subroutine name_conformal(curve, strips, status)
+        type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
+        type(contact_strips_t), intent(in) :: strips !! its solution
+        type(status_t), intent(inout) :: status      !! limitations so far, no error
+
+        character(len=message_length) :: words
+        real(wp) :: h_left, h_right, inv2r, slope, turn
+        integer :: k
+
+        slope = 0.0_wp
+        do k = 1, strips%n
+            call gap_at(curve, strips%y_left(k), h_left, inv2r)
+            call gap_at(curve, strips%y_right(k), h_right, inv2r)
+            slope = max(slope, abs(h_right - h_left)/(strips%y_right(k) - strips%y_left(k)))
+            inv2r = gap_inv2r(curve, 0.5_wp*(strips%y_left(k) + strips%y_right(k)))
+            slope = max(slope, 2.0_wp*max(inv2r, 0.0_wp)*min(strips%half_length(k), largest_size))
+        end do
+        turn = turn_of_contact(curve, strips)
+        if (turn > doubtful_inclination) then
             ! Given: degrees
             words = 'half-space doubtful: the inclination of the surfaces changes by ' &
-                //number_text(inclination*180.0_wp/pi)
-            call add_words(words, ' degrees over a patch')
+                //number_text(turn*180.0_wp/pi)
+            call add_words(words, ' degrees over the contact')
             call add_limitation(status, st_conformal, words)
         else if (slope > doubtful_slope) then
             words = 'half-space doubtful: a slope of '//number_text(slope)
             call add_words(words, ' of the gap in a patch')
             call add_limitation(status, st_conformal, words)
         end if
-    end subroutine name_limitations
+    end subroutine name_conformal
+
+    !> By how much the inclination of the surfaces changes over a contact, all of its patches
+    !> together, rad; zero if it is not known.
+    pure real(wp) function turn_of_contact(curve, strips) result(turn)
+        type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
+        type(contact_strips_t), intent(in) :: strips !! its solution
+
+        real(wp) :: low, high, ends(2)
+        integer :: k, first
+
+        turn = 0.0_wp
+        low = huge(1.0_wp)
+        high = -huge(1.0_wp)
+        first = 1
+        do k = 1, strips%n
+            if (.not. ends_patch(strips, k)) cycle
+            ends = [gap_inclination(curve, strips%y_left(first)), &
+                    gap_inclination(curve, strips%y_right(k))]
+            low = min(low, minval(ends))
+            high = max(high, maxval(ends))
+            turn = max(turn, high - low, inclination_change(curve, strips%y_left(first), &
+                                                            strips%y_right(k)))
+            first = k + 1
+        end do
+    end function turn_of_contact
 
     !> Add `st_under_resolved` to a status if an estimated error is above a limit, or no number.
     pure subroutine name_resolution(penetration, pmax, area, limit, status)

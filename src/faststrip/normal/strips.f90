@@ -3,7 +3,7 @@ module faststrip_normal_strips
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
                                      st_bad_argument
-    use faststrip_numerics_reversal, only: reverse, reverse_exchanged
+    use faststrip_numerics_reversal, only: reverse, reverse_exchanged, reverse_negated
     implicit none
     private
 
@@ -29,6 +29,13 @@ module faststrip_normal_strips
         real(wp), allocatable :: half_length(:) !! xd, half-length along x, mm
         real(wp), allocatable :: p0(:)          !! pressure on the centre line, MPa
         integer, allocatable :: patch(:)        !! number of the patch the strip belongs to
+        logical :: is_curved = .false.          !! has each strip its own plane?
+        real(wp) :: pitch = 0.0_wp !! if so: how rail and wheel turn against each other about y,
+                                   !! over the rolling speed, rad/mm
+        logical :: follow_outline = .false. !! if so: are their middles where the bodies do not
+                                            !! part, beside x = 0 under yaw?
+        real(wp), allocatable :: inclination(:) !! of that plane, if it has, rad
+        real(wp), allocatable :: depth(:)       !! of the middle below the plane of the contact, mm
     end type contact_strips_t
 
 contains
@@ -42,6 +49,7 @@ contains
         call clear_status(status)
         strips%n = 0
         strips%n_patches = 0
+        strips%is_curved = .false.
         if (capacity < 1) then
             call set_status(status, st_bad_argument, 'capacity for strips must be at least ' &
                             // '1, got ' // count_text(capacity))
@@ -49,14 +57,16 @@ contains
         end if
         if (allocated(strips%p0)) then
             if (size(strips%p0) == capacity) return
-            deallocate (strips%y_left, strips%y_right, strips%half_length, strips%p0, strips%patch)
+            deallocate (strips%y_left, strips%y_right, strips%half_length, strips%p0, &
+                        strips%patch, strips%inclination, strips%depth)
         end if
         allocate (strips%y_left(capacity), strips%y_right(capacity), &
-                  strips%half_length(capacity), strips%p0(capacity), source=0.0_wp)
+                  strips%half_length(capacity), strips%p0(capacity), &
+                  strips%inclination(capacity), strips%depth(capacity), source=0.0_wp)
         allocate (strips%patch(capacity), source=0)
     end subroutine reserve_strips
 
-    !> Copy strips into others that have the capacity.
+    !> Copy strips into others that have the capacity; as strips of one plane.
     pure subroutine copy_strips(from, to)
         type(contact_strips_t), intent(in) :: from  !! a normal solution
         type(contact_strips_t), intent(inout) :: to !! reserved for as many strips
@@ -64,6 +74,7 @@ contains
         associate (n => from%n)
             to%n = n
             to%n_patches = from%n_patches
+            to%is_curved = .false.
             to%y_left(:n) = from%y_left(:n)
             to%y_right(:n) = from%y_right(:n)
             to%half_length(:n) = from%half_length(:n)
@@ -82,6 +93,8 @@ contains
             call reverse(strips%p0(:n))
             call reverse(strips%patch(:n))
             strips%patch(:n) = strips%n_patches + 1 - strips%patch(:n)
+            if (strips%is_curved) call reverse_negated(strips%inclination(:n))
+            if (strips%is_curved) call reverse(strips%depth(:n))
         end associate
     end subroutine mirror_strips
 

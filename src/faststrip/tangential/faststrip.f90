@@ -70,6 +70,9 @@
 !> - **S14** **Dissimilar materials**: pressures cause slip (`pressure_slip`), which each strip has
 !>   besides the creepages; in adhesion over 1.3 to 1.4, for the springs of a bedding are too stiff
 !>   for it. What it changes of the pressures (Goodman) and of S10 is left out and estimated.
+!> - **S15** **Curved surface**: strips that have their own planes (`contact_strips_t`) have their
+!>   own rigid slip and spin (`strip_slip`). A patch rolls with their mean by load, each strip has
+!>   the rest besides; what other patches do (S11) is along the plane of the contact.
 !>
 !> `patch_law` has what the ellipse says of the strips, `strip_march` the march.
 !>
@@ -105,6 +108,7 @@ module faststrip_tangential_faststrip
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
     use faststrip_tangential_pressure_slip, only: slip_by_pressure
     use faststrip_tangential_strip_march, only: rolling_t, march_sums_t, march_strips, strip_mu, &
+                                                strip_slip, &
                                                 most_hot_points
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           empty_field, field_power, most_points, stick_share
@@ -123,7 +127,6 @@ module faststrip_tangential_faststrip
     !> How a patch rolls.
     type, extends(rolling_t) :: patch_rolling_t
         real(wp) :: mu_in_slip = 0.0_wp    ! mean coefficient where the patch slides (S12)
-        type(creepage_t) :: given          ! creepage without what other patches do
         real(wp) :: moment = 0.0_wp        ! what they give to the moment besides, N mm
         logical :: is_corrected = .true.   ! S10, S11?
     end type patch_rolling_t
@@ -186,8 +189,9 @@ contains
             if (is_error(status)) return
         end if
 
-        rolling = patch_rolling_t(mu=mu, creepage=creepage, points=points_per_strip, &
-                                  mu_in_slip=mu, given=creepage)
+        rolling = patch_rolling_t(mu=mu, creepage=creepage, given=creepage, plane=creepage, &
+                                  points=points_per_strip, mu_in_slip=mu, &
+                                  plane_counts=strips%is_curved)
         rolling%pressure_slip = slip_by_pressure(material)
         if (present(friction)) then
             rolling%friction = friction
@@ -273,13 +277,17 @@ contains
             last = patch_end(strips, first)
             induced%mu = patch_mu(strips, first, last, rolling)
             induced%mu_in_slip = induced%mu
+            if (strips%is_curved) then
+                induced%given = patch_motion(strips, first, last, rolling%plane)
+                induced%creepage = induced%given
+            end if
             if (coupling%n > 1) then
                 if (patch == 0) then
                     part = part + 1
                     patch = coupling%patches(part)
-                    call induced_motion(coupling, tractions, part, rolling%creepage, &
-                                        induced%creepage, tilt)
                 end if
+                call induced_motion(coupling, tractions, part, induced%given, &
+                                    induced%creepage, tilt)
                 patch = patch - 1
                 ellipse = patch_ellipse(strips, first, last)
                 call find_law(ellipse, material, induced%mu, induced%creepage, law, status, linear)
@@ -303,6 +311,33 @@ contains
         end do
         call approach(found(:coupling%n), tractions(:coupling%n))
     end subroutine solve_patches
+
+    !> The motion of a patch on a curved surface, about the reference point: the mean by load of
+    !> its strips' own (S15).
+    pure type(creepage_t) function patch_motion(strips, first, last, plane) result(mean)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: first, last
+        type(creepage_t), intent(in) :: plane
+
+        type(creepage_t) :: own
+        real(wp) :: load, part, arm
+        integer :: k
+
+        load = 0.0_wp
+        arm = 0.0_wp
+        mean = creepage_t()
+        do k = first, last
+            part = load_of(strips, k)
+            own = strip_slip(strips, k, plane)
+            load = load + part
+            arm = arm + part*0.5_wp*(strips%y_left(k) + strips%y_right(k))
+            mean = creepage_t(mean%cksi + part*own%cksi, mean%ceta + part*own%ceta, &
+                              mean%cphi + part*own%cphi)
+        end do
+        load = max(load, nothing)
+        mean = creepage_t(plane%cksi + (mean%cksi + mean%cphi/load*arm)/load, &
+                          plane%ceta + mean%ceta/load, plane%cphi + mean%cphi/load)
+    end function patch_motion
 
     !> The static coefficient of a patch, the mean by load where it varies (S13).
     pure real(wp) function patch_mu(strips, first, last, rolling) result(mu)

@@ -1,5 +1,5 @@
 !> The march in the strips of a patch, from the leading edge to the trailing one: several strips
-!> side by side, as lanes of the processor's vectors. The steps S2, S4, S6 to S9 and S12 to S14 are
+!> side by side, as lanes of the processor's vectors. The steps S2, S4, S6 to S9 and S12 to S15 are
 !> those of `faststrip_tangential_faststrip`.
 module faststrip_tangential_strip_march
     use faststrip_base_kinds, only: wp, pi
@@ -18,7 +18,7 @@ module faststrip_tangential_strip_march
     implicit none
     private
 
-    public :: rolling_t, march_sums_t, march_strips, strip_mu, most_hot_points
+    public :: rolling_t, march_sums_t, march_strips, strip_mu, strip_slip, most_hot_points
 
     ! Tuned [1]. Origin: errors against CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: slip_onset = 2.0_wp      ! S4
@@ -28,8 +28,11 @@ module faststrip_tangential_strip_march
         real(wp) :: mu = 0.0_wp      !! coefficient of friction, static; a mean, if it varies
         type(friction_t) :: friction !! how it falls with slip and temperature; its table over y
         type(creepage_t) :: creepage !! about the reference point
+        type(creepage_t) :: given    !! the same without what other patches do
+        type(creepage_t) :: plane    !! of all of a contact whose strips have their own (S15)
         integer :: points = 0        !! along each strip, at most `most_points`
         real(wp) :: pressure_slip = 0.0_wp !! by unit pressure, of dissimilar materials, 1/MPa
+        logical :: plane_counts = .false.  !! have strips their own slip (S15)?
     end type rolling_t
 
     !> Sums over the strips that were marched.
@@ -79,6 +82,8 @@ module faststrip_tangential_strip_march
         real(wp), dimension(most_lanes) :: peak_bound, inverse_peak_bound !! mu p0, MPa
         real(wp), dimension(most_lanes) :: slope_x, slope_y0, slope_y1 !! of adhesion, MPa/mm
         real(wp), dimension(most_lanes) :: rigid_x, rigid_y !! rigid slip, without spin across
+        real(wp), dimension(most_lanes) :: spin           !! rad/mm
+        real(wp), dimension(most_lanes) :: own_x, own_y, own_spin !! of them, a strip's own (S15)
         real(wp), dimension(most_lanes) :: k1, k2         !! flexibilities in slip, mm/MPa
         real(wp), dimension(most_lanes) :: onset          !! scale of 1/lambda, MPa
         real(wp), dimension(most_lanes) :: px, py         !! of the last element, MPa
@@ -191,10 +196,9 @@ contains
                 ahead_y = block%py
             end if
             if (is_pressed(rolling)) call press(block, t + 0.5_wp*step, pressed)
-            call advance(block, t, step, bound_at(bound, i, t), rolling%creepage%cphi)
+            call advance(block, t, step, bound_at(bound, i, t))
             if (is_pressed(rolling)) call note_pressed(block, pressed)
-            if (present(field)) call note_elements(block, strips, rolling%creepage, ahead_x, &
-                                                   ahead_y, i, n, field)
+            if (present(field)) call note_elements(block, strips, ahead_x, ahead_y, i, n, field)
         end do
         if (present(field)) field%n = field%n + n*block%n
     end subroutine march
@@ -228,13 +232,12 @@ contains
             ahead_x = block%px
             ahead_y = block%py
             if (is_pressed(rolling)) call press(block, t + 0.5_wp*step, pressed)
-            call advance(block, t, step, bound_at(bound, i, t), rolling%creepage%cphi)
+            call advance(block, t, step, bound_at(bound, i, t))
             all = all + bound_at(bound, i, t)
             call follow_slip(block, rolling, i, bound_at(bound, i, t), ahead_x, ahead_y, &
                              fall, sums)
             if (is_pressed(rolling)) call note_pressed(block, pressed)
-            if (present(field)) call note_elements(block, strips, rolling%creepage, ahead_x, &
-                                                   ahead_y, i, n, field)
+            if (present(field)) call note_elements(block, strips, ahead_x, ahead_y, i, n, field)
         end do
         if (present(field)) field%n = field%n + n*block%n
         do k = 1, block%lanes
@@ -322,10 +325,9 @@ contains
     !> is the mean of both; what goes into the field at the element itself gives the same heat
     !> (S8). The last element has also the half step to the trailing edge, on which the
     !> traction falls to nothing.
-    pure subroutine note_elements(block, strips, creepage, ahead_x, ahead_y, i, n, field)
+    pure subroutine note_elements(block, strips, ahead_x, ahead_y, i, n, field)
         type(block_t), intent(in) :: block
         type(contact_strips_t), intent(in) :: strips
-        type(creepage_t), intent(in) :: creepage
         real(wp), intent(in) :: ahead_x(:), ahead_y(:) !! traction of the element ahead, MPa
         integer, intent(in) :: i, n                    !! element, elements of a strip
         type(tangential_field_t), intent(inout) :: field
@@ -345,7 +347,7 @@ contains
                     heat = 0.5_wp*block%f(k)*(px*(px + ahead_x(k)) + py*(py + ahead_y(k)))
                     if (i == n) heat = heat + 0.5_wp*(block%k1(k)*px**2 + block%k2(k)*py**2) &
                                        - 0.25_wp*length*(block%rigid_x(k)*px &
-                                                         + (block%rigid_y(k) + x*creepage%cphi)*py)
+                                                         + (block%rigid_y(k) + x*block%spin(k))*py)
                     lambda = max(heat, 0.0_wp)/(length*(px*px + py*py))
                 end if
                 call put_element(field, field%n + (k - 1)*n + i, x, block%y(k), &
@@ -366,11 +368,16 @@ contains
         type(strip_forces_t), intent(inout), optional :: per_strip
 
         type(tangential_result_t) :: full
+        type(creepage_t) :: creepage
         real(wp) :: used, area, fx, fy, mz
         integer :: k
 
-        associate (result => sums%result, creepage => rolling%creepage, points => rolling%points)
+        creepage = rolling%creepage
+        associate (result => sums%result, points => rolling%points)
             do k = 1, block%n
+                if (rolling%plane_counts) creepage = creepage_t( &
+                    rolling%creepage%cksi + block%own_x(k) + block%y(k)*block%own_spin(k), &
+                    rolling%creepage%ceta + block%own_y(k), block%spin(k))
                 used = min(sqrt(block%sum_x(k)**2 + block%sum_y(k)**2) &
                            /(0.25_wp*pi*points*block%peak_bound(k)), 1.0_wp)
                 fx = block%cell(k)*block%sum_x(k)
@@ -392,6 +399,9 @@ contains
                 area = points*block%cell(k)
                 sums%covered = sums%covered + area
                 sums%pressed = sums%pressed + block%cell(k)*block%pressed(k)
+                if (rolling%plane_counts) sums%pressed = sums%pressed &
+                    + fx*(creepage%cksi - rolling%creepage%cksi) + fy*block%own_y(k) &
+                    + mz*block%own_spin(k)
                 sums%stuck = sums%stuck + area*(block%sticking(k)/points)**2
                 if (.not. present(per_strip)) cycle
                 associate (i => block%strip(k))
@@ -474,9 +484,72 @@ contains
             block%arm_x(k) = 0.0_wp
             block%sticking(k) = 0.0_wp
             block%rigid_y(k) = rolling%creepage%ceta
+            block%spin(k) = rolling%creepage%cphi
             block%pressed(k) = 0.0_wp
         end do
+        if (rolling%plane_counts) call add_own_slip(law, strips, rolling, block)
     end subroutine fill_block
+
+    !> Give strips of a block what each has of slip beside that of the patch (S15).
+    pure subroutine add_own_slip(law, strips, rolling, block)
+        type(patch_law_t), intent(in) :: law
+        type(contact_strips_t), intent(in) :: strips
+        type(rolling_t), intent(in) :: rolling
+        type(block_t), intent(inout) :: block
+
+        type(creepage_t) :: own
+        real(wp) :: stiffness
+        integer :: k
+
+        do k = 1, block%lanes
+            own = strip_slip(strips, block%strip(min(k, block%n)), rolling%plane)
+            associate (given => rolling%given, plane => rolling%plane)
+                block%own_x(k) = own%cksi - (given%cksi - plane%cksi) &
+                                 + block%y(k)*(given%cphi - plane%cphi)
+                block%own_y(k) = own%ceta - (given%ceta - plane%ceta)
+                block%own_spin(k) = own%cphi - (given%cphi - plane%cphi)
+            end associate
+            ! (a/xd)^gamma_length
+            stiffness = sqrt(sqrt(law%a/block%half_length(k)))
+            stiffness = stiffness*sqrt(stiffness)
+            block%slope_x(k) = block%slope_x(k) + block%own_x(k)/law%l1*stiffness
+            block%slope_y0(k) = block%slope_y0(k) + block%own_y(k)/law%l2*stiffness
+            block%slope_y1(k) = block%slope_y1(k) + block%own_spin(k)/law%l3*stiffness
+            block%rigid_x(k) = block%rigid_x(k) + block%own_x(k)
+            block%rigid_y(k) = block%rigid_y(k) + block%own_y(k)
+            block%spin(k) = block%spin(k) + block%own_spin(k)
+        end do
+    end subroutine add_own_slip
+
+    !> What a strip on a curved surface has of slip, at its middle, and of spin beside the plane of
+    !> the contact (S15).
+    !>
+    !> The rail moves over the wheel with the creepages and the spin at the reference point, and
+    !> turns about y at `pitch`. At the depth z that adds `pitch z` along x. Of the lateral creepage
+    !> the part along a strip inclined by a is `ceta cos a`; of the turning the part along its
+    !> normal is its spin, `cphi cos a - pitch sin a`. Bodies of a wheelset that yaws touch where
+    !> they do not part, beside x = 0 by `-vy tan a/pitch`, vy the lateral velocity there, and
+    !> strips lie there: the slip has no part along the normal and is, along the strip,
+    !>
+    !>     ceta/(cos a + cphi/pitch sin a)
+    pure type(creepage_t) function strip_slip(strips, k, plane) result(own)
+        type(contact_strips_t), intent(in) :: strips !! laid on a curved surface
+        integer, intent(in) :: k                     !! one of them
+        type(creepage_t), intent(in) :: plane        !! of the contact, about y = 0
+
+        real(wp) :: sine, cosine, lost
+
+        sine = sin(strips%inclination(k))
+        ! 1 - cos a
+        lost = 2.0_wp*sin(0.5_wp*strips%inclination(k))**2
+        own%cksi = strips%pitch*strips%depth(k)
+        own%ceta = -plane%ceta*lost
+        if (strips%follow_outline) then
+            cosine = cos(strips%inclination(k)) + plane%cphi/strips%pitch*sine
+            own%ceta = plane%ceta*((1.0_wp - cosine)/max(cosine, 0.25_wp))
+        end if
+        own%cphi = -plane%cphi*lost - strips%pitch*sine
+    end function strip_slip
 
     !> Do pressures of dissimilar materials cause slip?
     pure logical function is_pressed(rolling)
@@ -551,12 +624,11 @@ contains
 
     !> One element further in all lanes, from the leading edge to the trailing one: in adhesion the
     !> traction grows by the slope of adhesion; where that leaves the bound, it slides.
-    pure subroutine advance(block, t, step_per_length, bound, cphi)
+    pure subroutine advance(block, t, step_per_length, bound)
         type(block_t), intent(inout) :: block
         real(wp), intent(in) :: t              !! place of the element over half-length
         real(wp), intent(in) :: step_per_length !! from the last point on, over half-length
         real(wp), intent(in) :: bound          !! bound over mu p0
-        real(wp), intent(in) :: cphi           !! spin
 
         real(wp) :: slope_y, mean_x
         integer :: k, first
@@ -567,7 +639,8 @@ contains
             block%step(k) = block%half_length(k)*step_per_length
             slope_y = block%slope_y0(k) + block%half_length(k)*mean_x*block%slope_y1(k)
             block%extra_y(k) = block%step(k)*(block%k2(k)*slope_y &
-                                             - (block%rigid_y(k) + block%half_length(k)*t*cphi))
+                                             - (block%rigid_y(k) &
+                                                + block%half_length(k)*t*block%spin(k)))
             block%px(k) = block%px(k) - block%step(k)*block%slope_x(k)
             block%py(k) = block%py(k) - block%step(k)*slope_y
             block%excess(k) = block%px(k)*block%px(k) + block%py(k)*block%py(k) &

@@ -413,6 +413,11 @@ contains
                             'of a wheelset, whose motion gives their creepages')
             return
         end if
+        if (model%case%curved .and. associated(model%lookup)) then
+            call set_status(status, st_bad_argument, 'a lookup table has no contacts on a ' // &
+                            'curved surface')
+            return
+        end if
         call check_demand(state, demand, status)
         call check_on_rollers(model, state, status)
         if (is_error(status)) return

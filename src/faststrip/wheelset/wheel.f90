@@ -409,7 +409,7 @@ contains
                                       dot_product(contact%force, axes%axle), &
                                       dot_product(contact%force, axes%down)]
             contact%moment = cross(frame%origin - axes%centre, contact%force) &
-                             + damped*in_track(frame, [0.0_wp, 0.0_wp, forces%mz])
+                             + damped*in_track(frame, [contact%figures%moment, forces%mz])
         end associate
     end subroutine find_contact_force
 
@@ -424,6 +424,11 @@ contains
         case%friction%speed = max(contact%speed, least_speed)
         case%friction%table%y_rail = contact%rail(1)
         case%friction%table%angle = contact%angle
+        if (case%curved) then
+            case%pitch = cos(contact%angle)/contact%radius
+            if (model%pair(1)%roller_radius > 0.0_wp) &
+                case%pitch = case%pitch + cos(contact%angle)/model%pair(1)%roller_radius
+        end if
     end subroutine take_motion
 
     !> Where a point of the track is in the frame of the wheel's profile.
@@ -467,6 +472,9 @@ contains
                 contact%moment([1, 3]) = -contact%moment([1, 3])
                 contact%figures%tangential%fy = -contact%figures%tangential%fy
                 contact%figures%tangential%mz = -contact%figures%tangential%mz
+                contact%figures%along%fy = -contact%figures%along%fy
+                contact%figures%along%mz = -contact%figures%along%mz
+                contact%figures%moment(1) = -contact%figures%moment(1)
                 associate (normal => contact%figures%normal)
                     ends = [normal%y_min, normal%y_max]
                     normal%y_min = -ends(2)
@@ -498,6 +506,9 @@ contains
                 contact%moment(2:3) = -contact%moment(2:3)
                 contact%figures%tangential%fx = -contact%figures%tangential%fx
                 contact%figures%tangential%mz = -contact%figures%tangential%mz
+                contact%figures%along%fx = -contact%figures%along%fx
+                contact%figures%along%mz = -contact%figures%along%mz
+                contact%figures%moment(2) = -contact%figures%moment(2)
                 contact%figures%flash%x = -contact%figures%flash%x
             end associate
         end do

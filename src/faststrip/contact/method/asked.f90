@@ -1,7 +1,7 @@
 !> Where a tangential method puts what a case asks for besides the sums.
 module faststrip_contact_method_asked
     use faststrip_tangential_types, only: tangential_field_t, strip_forces_t
-    use faststrip_contact_case, only: contact_case_t, keeps_elements
+    use faststrip_contact_case, only: contact_case_t, keeps_elements, wants_strip_forces
     use faststrip_contact_method, only: workspace_t
     implicit none
     private
@@ -27,6 +27,6 @@ contains
         type(strip_forces_t), pointer :: forces
 
         forces => null()
-        if (case%asked%strip_forces .or. case%wear_law%n > 0) forces => workspace%strip_forces
+        if (wants_strip_forces(case)) forces => workspace%strip_forces
     end function asked_strip_forces
 end module faststrip_contact_method_asked

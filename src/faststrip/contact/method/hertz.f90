@@ -7,7 +7,8 @@ module faststrip_contact_method_hertz
     use faststrip_base_status, only: status_t, is_error
     use faststrip_normal_simple_hertz, only: hertz_solve_gap_demand, hertz_strips
     use faststrip_normal_estimate_hertz_errors, only: estimate_hertz_errors
-    use faststrip_normal_limitations, only: check_lowest, name_resolution, name_steps
+    use faststrip_normal_limitations, only: check_lowest, name_resolution, name_conformal, &
+                                            name_steps
     use faststrip_normal_estimate_misfit, only: misfit_t, find_misfit
     use faststrip_normal_types, only: normal_result_t
     use faststrip_tangential_force_errors, only: force_errors_t
@@ -63,6 +64,7 @@ contains
             call hertz_strips(hertz, ellipse_strips(case%methods), workspace%strips, status)
             if (is_error(status)) return
             workspace%is_ellipse = .true.
+            call name_conformal(curve, workspace%strips, status)
             call name_steps(curve, hertz%penetration, workspace%strips, status)
         end associate
     end subroutine solve_by_hertz

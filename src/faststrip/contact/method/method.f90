@@ -72,6 +72,12 @@ module faststrip_contact_method
             !! estimated errors of those found, cksi and ceta, if `forces_are_estimated`
         type(tangential_result_t) :: tangential = tangential_result_t()
             !! forces on the rail, friction power, stick
+        logical :: is_curved = .false.
+            !! are load, Fx, Fy and Mz those of a curved surface, in the frame of the contact?
+        real(wp) :: along_load = 0.0_wp  !! if so, the sum of pressures along their own normals, N
+        type(tangential_result_t) :: along = tangential_result_t()
+            !! if so, forces and moment along the surface
+        real(wp) :: moment(2) = 0.0_wp   !! if so, about x and y of the contact, N mm
         real(wp) :: mu = 0.0_wp          !! their coefficient of friction, static; the mean by load
         logical :: has_forces = .false.  !! are these known?
         logical :: knows_stick = .false. !! is the stick fraction known?

@@ -49,6 +49,7 @@ module faststrip_interop_c_structs
         real(c_double) :: conductivity_wheel, conductivity_rail, heat_capacity_wheel, &
                           heat_capacity_rail, density_wheel, density_rail, temperature_wheel, &
                           temperature_rail
+        integer(c_int) :: curved
     end type c_case_t
 
     !> `faststrip_result` of the header; zeros unless there is one.
@@ -133,6 +134,7 @@ contains
             fields%temperature_wheel = thermal%temperature(of_wheel)
             fields%temperature_rail = thermal%temperature(of_rail)
         end associate
+        fields%curved = 0
     end function default_case
 
     !> A caller's case, if it is one.
@@ -222,6 +224,7 @@ contains
                                  [fields%heat_capacity_wheel, fields%heat_capacity_rail], &
                                  [fields%density_wheel, fields%density_rail], &
                                  [fields%temperature_wheel, fields%temperature_rail])
+        case%curved = fields%curved /= 0
         contact_angle = fields%contact_angle
         call fill_table(fields, case%friction%table)
         case%given = given_forces_t([fields%fx_is_given, fields%fy_is_given] /= 0, &

@@ -88,7 +88,7 @@ module faststrip_interop_f77
 
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
     public :: fslimt, fserrs, fsferr, fslset, fscopy, fsfree, fsmsg, fslast, fsprof, fsrprf
-    public :: fswant, fstakn, fsstep, fsints
+    public :: fswant, fstakn, fsstep, fsints, fscurv, fsgapt
     public :: n_iwork, check_choices, set_number, number_of, find_either, copy_strips
 
     ! A workspace array: two marks around the handle.
@@ -270,14 +270,41 @@ contains
 
         call find_handle(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
-        if (n < 0) then
-            call set_status(handle%status, st_bad_argument, 'the number of gap points must ' // &
-                            'not be negative, got ' // count_text(n))
-        else
-            call handle_gap(handle, y(:n), h(:n), a(:n))
-        end if
+        call check_points(handle, n)
+        if (.not. is_error(handle%status)) call handle_gap(handle, y(:n), h(:n), a(:n))
         info = handle%status%code
     end subroutine fsgap
+
+    !> CALL FSGAPT(IWORK, N, Y, H, A, TURN, INFO)
+    !>
+    !> The same with the inclination TURN of the surfaces, rad, as FSPROF gives it: contacts that
+    !> turn far are named then, and may lie on the curved surface (FSCURV).
+    subroutine fsgapt(iwork, n, y, h, a, inclination, info) bind(c, name='fsgapt_')
+        integer(c_int), intent(in) :: iwork(n_iwork)      !! made by FSINIT
+        integer(c_int), intent(in) :: n                   !! number of points
+        real(c_double), intent(in) :: y(*), h(*), a(*)    !! mm, mm, 1/mm
+        real(c_double), intent(in) :: inclination(*)      !! rad
+        integer(c_int), intent(out) :: info               !! status
+
+        type(handle_t), pointer :: handle
+
+        call find_handle(number_of(iwork), handle, info)
+        if (.not. associated(handle)) return
+        call check_points(handle, n)
+        if (.not. is_error(handle%status)) &
+            call handle_gap(handle, y(:n), h(:n), a(:n), inclination(:n))
+        info = handle%status%code
+    end subroutine fsgapt
+
+    ! Refuse a number of points that is none.
+    subroutine check_points(handle, n)
+        type(handle_t), intent(inout) :: handle
+        integer(c_int), intent(in) :: n
+
+        call clear_status(handle%status)
+        if (n < 0) call set_status(handle%status, st_bad_argument, 'the number of gap points ' // &
+                                   'must not be negative, got ' // count_text(n))
+    end subroutine check_points
 
     !> CALL FSSOLV(IWORK, IOPT, PAR, RES, INFO)
     !>
@@ -415,6 +442,23 @@ contains
         handle%case%resolution_limit = limit
         handle%case%force_limit = limit
     end subroutine fslimt
+
+    !> CALL FSCURV(IWORK, ICURV, INFO)
+    !>
+    !> Set for all further calls of FSSOLV or FSWSLV whether strips lie on a curved surface, each
+    !> with its own plane (ICURV 1), or in the plane of the contact (0, as FSINIT and FSWNEW set).
+    subroutine fscurv(iwork, curved, info) bind(c, name='fscurv_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSINIT or FSWNEW
+        integer(c_int), intent(in) :: curved         !! as above
+        integer(c_int), intent(out) :: info          !! status
+
+        type(handle_t), pointer :: handle
+        type(wheelset_handle_t), pointer :: wheelset
+
+        call find_either(iwork, handle, wheelset, info)
+        if (associated(handle)) handle%case%curved = curved /= 0
+        if (associated(wheelset)) wheelset%model%case%curved = curved /= 0
+    end subroutine fscurv
 
     !> CALL FSERRS(IWORK, ERR, INFO)
     !>

@@ -1,0 +1,239 @@
+!> A contact on a curved surface: each strip has its own place, normal and plane.
+!>
+!> A half-space has one plane. Where wheel and rail curve together, as in the root of a flange, each
+!> strip presses along its own normal: the force of the contact is the sum of the strips' pressures
+!> and tractions in their own planes,
+!>
+!>     F = sum N_k n_k + Fy_k t_k + Fx_k e_x,   n = (0, -sin a, cos a), t = (0, cos a, sin a),
+!>
+!> a the inclination of a strip, and its moment about the reference point has the arms of the
+!> strips' places. Pressures and their own sums stay those of the plane.
+module faststrip_contact_method_surface
+    use faststrip_base_kinds, only: wp
+    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument, &
+                                     st_under_resolved
+    use faststrip_contact_case, only: contact_case_t
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inclination, gap_inv2r, &
+                                            first_point_from
+    use faststrip_normal_limitations, only: turn_of_contact, doubtful_inclination, &
+                                            name_resolution, name_force_resolution
+    use faststrip_normal_strips, only: contact_strips_t, strip_load, strips_load
+    use faststrip_contact_method, only: workspace_t, contact_result_t
+    implicit none
+    private
+
+    public :: check_surface, lay_strips, flatten_load, turn_forces
+    public :: add_pressure_errors, add_turn_errors
+
+    ! What a half-space leaves out of a contact that turns by 2 theta, over theta^2; `conformal`
+    ! begins at theta = 0.17.
+    ! Tuned [1]. Origin: CONTACT's example of radii 10 in 10.2 mm, theta = 0.55, with influence
+    ! numbers of the curved bodies: pmax 9 % off, the load at a penetration 3 %, forces by 4 % of mu
+    ! N, by slip along the curve 6 % more; areas by Li's grooves.
+    real(wp), parameter :: lost_of_pmax = 0.35_wp, lost_of_area = 0.3_wp, &
+        lost_of_penetration = 0.1_wp, lost_of_forces = 0.15_wp, lost_of_slip = 0.25_wp
+
+contains
+
+    !> Refuse a gap that does not tell how its surfaces are inclined.
+    pure subroutine check_surface(curve, status)
+        type(gap_curve_t), intent(in) :: curve  !! that was set
+        type(status_t), intent(inout) :: status !! `st_bad_argument`; an error before stays
+
+        if (.not. curve%inclination_is_known) &
+            call set_status(status, st_bad_argument, 'a curved surface needs the inclination ' // &
+                            'of the surfaces, which this gap does not have')
+    end subroutine check_surface
+
+    !> Lay strips on the curved surface in the middle between both bodies, or back on the plane.
+    pure subroutine lay_strips(curve, case, strips)
+        type(gap_curve_t), intent(in) :: curve          !! of the contact
+        type(contact_case_t), intent(in) :: case        !! is its surface curved? Its pitch
+        type(contact_strips_t), intent(inout) :: strips !! get their places
+
+        real(wp) :: y, before
+        integer :: k
+
+        strips%is_curved = case%curved .and. curve%n > 0
+        if (.not. strips%is_curved) return
+        strips%pitch = case%pitch
+        strips%follow_outline = case%pitch > 0.0_wp
+        ! The radius along x, in the frame of the contact, is that of rolling.
+        if (.not. strips%follow_outline) &
+            strips%pitch = 2.0_wp*max(gap_inv2r(curve, 0.0_wp), 0.0_wp)
+        before = 0.0_wp
+        do k = 1, strips%n
+            y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
+            strips%inclination(k) = gap_inclination(curve, y)
+            if (k == 1) then
+                strips%depth(k) = descent(curve, 0.0_wp, y)
+            else
+                strips%depth(k) = strips%depth(k - 1) + descent(curve, before, y)
+            end if
+            before = y
+        end do
+    end subroutine lay_strips
+
+    !> By how much the surface lies deeper at one place than at another, mm.
+    pure real(wp) function descent(curve, y_from, y_to)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: y_from, y_to ! mm
+
+        real(wp) :: y, next, slope, slope_next, last
+        integer :: i
+
+        descent = 0.0_wp
+        y = min(y_from, y_to)
+        last = max(y_from, y_to)
+        slope = tan(gap_inclination(curve, y))
+        do i = first_point_from(curve, y), curve%n + 1
+            next = last
+            if (i <= curve%n) next = min(curve%y(i), last)
+            slope_next = tan(gap_inclination(curve, next))
+            descent = descent + 0.5_wp*(slope + slope_next)*(next - y)
+            if (next >= last) exit
+            y = next
+            slope = slope_next
+        end do
+        if (y_to < y_from) descent = -descent
+    end function descent
+
+    !> Add what a half-space leaves out of a contact whose surfaces turn so far that it is
+    !> `conformal` to the estimated errors of its pressures.
+    pure subroutine add_pressure_errors(workspace, case, result, status)
+        type(workspace_t), intent(in) :: workspace      !! with the solution
+        type(contact_case_t), intent(in) :: case        !! that was solved
+        type(contact_result_t), intent(inout) :: result !! gets the errors, if it has some
+        type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
+
+        real(wp) :: turn
+
+        if (is_error(status) .or. .not. result%is_estimated) return
+        turn = conformal_turn(workspace)
+        if (.not. turn > 0.0_wp) return
+        associate (errors => result%normal_errors)
+            errors%est_err_penetration = errors%est_err_penetration + lost_of_penetration*turn**2
+            errors%est_err_pmax = errors%est_err_pmax + lost_of_pmax*turn**2
+            errors%est_err_area = errors%est_err_area + lost_of_area*turn**2
+            if (.not. btest(status%limitations, st_under_resolved)) &
+                call name_resolution(errors%est_err_penetration, errors%est_err_pmax, &
+                                     errors%est_err_area, case%resolution_limit, status)
+        end associate
+    end subroutine add_pressure_errors
+
+    !> The same of the forces: in the plane also what turning its pressures, and the strips' own
+    !> slip, would change.
+    pure subroutine add_turn_errors(workspace, case, result, status)
+        type(workspace_t), intent(in) :: workspace      !! with the solution
+        type(contact_case_t), intent(in) :: case        !! that was solved
+        type(contact_result_t), intent(inout) :: result !! gets the errors, if it has some
+        type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
+
+        real(wp) :: turn, load, side
+        integer :: k
+
+        if (is_error(status) .or. .not. result%forces_are_estimated) return
+        turn = conformal_turn(workspace)
+        if (.not. turn > 0.0_wp) return
+        associate (errors => result%force_errors, strips => workspace%strips, &
+                   bound => workspace%mu*result%normal%load)
+            side = 0.0_wp
+            if (.not. case%curved .and. bound > 0.0_wp) then
+                do k = 1, strips%n
+                    associate (a => gap_inclination(workspace%solver%curve, &
+                                                    0.5_wp*(strips%y_left(k) + strips%y_right(k))))
+                        load = strip_load(strips%p0(k), strips%half_length(k), &
+                                          strips%y_right(k) - strips%y_left(k))
+                        side = side + load*sin(a)
+                    end associate
+                end do
+                side = abs(side)/bound
+            end if
+            turn = merge(lost_of_forces, lost_of_forces + lost_of_slip, case%curved)*turn**2
+            errors%fx = errors%fx + turn
+            errors%fy = errors%fy + turn + side
+            errors%mz = errors%mz + turn
+            if (.not. btest(status%limitations, st_under_resolved)) &
+                call name_force_resolution(errors%fx, errors%fy, errors%mz - errors%arm, &
+                                           case%force_limit, status)
+        end associate
+    end subroutine add_turn_errors
+
+    !> Half of what the surfaces turn by, if that makes the contact `conformal`, rad; else zero.
+    pure real(wp) function conformal_turn(workspace) result(turn)
+        type(workspace_t), intent(in) :: workspace
+
+        turn = 0.0_wp
+        if (workspace%solver%curve%n == 0) return
+        turn = turn_of_contact(workspace%solver%curve, workspace%strips)
+        turn = merge(0.5_wp*turn, 0.0_wp, turn > doubtful_inclination)
+    end function conformal_turn
+
+    !> The load of pressures that were turned, as it is along the surface.
+    pure subroutine flatten_load(result)
+        type(contact_result_t), intent(inout) :: result !! of `turn_forces`, or of a plane
+
+        if (result%is_curved) result%normal%load = result%along_load
+        result%is_curved = .false.
+    end subroutine flatten_load
+
+    !> Make the load, the forces and the moment of a result those of the curved surface, in the
+    !> frame of the contact. Forces of methods that have none of strips go in proportion to their
+    !> loads. On a plane nothing changes, to the bit.
+    pure subroutine turn_forces(workspace, result)
+        type(workspace_t), intent(in) :: workspace      !! its strips are laid
+        type(contact_result_t), intent(inout) :: result !! along the surface; is turned
+
+        real(wp) :: load, share, fx, fy, side, down, lost, sine, turned_y, turned_z, arm, lever, &
+            lean, shortened
+        integer :: k
+
+        associate (strips => workspace%strips, forces => workspace%strip_forces, &
+                   normal => result%normal, tangential => result%tangential)
+            result%is_curved = .false.
+            if (.not. strips%is_curved) return
+            result%is_curved = .true.
+            result%along_load = normal%load
+            result%along = tangential
+            result%moment = 0.0_wp
+            turned_y = 0.0_wp
+            turned_z = 0.0_wp
+            arm = 0.0_wp
+            lever = 0.0_wp
+            lean = 0.0_wp
+            shortened = 0.0_wp
+            load = strips_load(strips)
+            if (.not. load > 0.0_wp) return
+            do k = 1, strips%n
+                share = strip_load(strips%p0(k), strips%half_length(k), &
+                                   strips%y_right(k) - strips%y_left(k))/load
+                fx = share*tangential%fx
+                fy = share*tangential%fy
+                if (forces%n == strips%n) then
+                    fx = forces%fx(k)
+                    fy = forces%fy(k)
+                end if
+                sine = sin(strips%inclination(k))
+                lost = 2.0_wp*sin(0.5_wp*strips%inclination(k))**2
+                side = -fy*lost - share*normal%load*sine
+                down = -share*normal%load*lost + fy*sine
+                turned_y = turned_y + side
+                turned_z = turned_z + down
+                associate (y => 0.5_wp*(strips%y_left(k) + strips%y_right(k)), &
+                           z => strips%depth(k))
+                    result%moment(1) = result%moment(1) + y*(share*normal%load + down) &
+                                       - z*(fy + side)
+                    arm = arm + y*fx
+                    lever = lever + z*fx
+                end associate
+                lean = lean + share*sine
+                shortened = shortened + share*lost
+            end do
+            ! What tractions have about the strips' own places turns with their planes.
+            result%moment(2) = lever - lean*(tangential%mz + arm)
+            tangential%mz = tangential%mz - shortened*(tangential%mz + arm)
+            tangential%fy = tangential%fy + turned_y
+            normal%load = normal%load + turned_z
+        end associate
+    end subroutine turn_forces
+end module faststrip_contact_method_surface
