@@ -21,7 +21,7 @@ module faststrip_kalker_methods
                                           add_element, state_adhesion
     use faststrip_contact_case, only: contact_case_t, asked_t, keeps_elements
     use faststrip_contact_method, only: normal_method_t, tangential_method_t, workspace_t, &
-                                        contact_result_t, enter_normal_method, &
+                                        contact_result_t, demand_of, enter_normal_method, &
                                         enter_tangential_method
     use faststrip_contact_method_asked, only: asked_field
     use faststrip_contact_method_capacity, only: reserve_for_strips
@@ -200,7 +200,7 @@ contains
             options%most_elements = methods%max_elements
             if (methods%norm_start == start_last) then
                 call norm_solve_demand(memory%norm, normal_compliance(case%material), &
-                                       case%demand_t, options, normal, status, &
+                                       demand_of(workspace, case), options, normal, status, &
                                        workspace%strips, memory%watch_norm)
             else
                 memory%start%strips%n = 0
@@ -209,7 +209,7 @@ contains
                     options%two_levels = memory%start%strips%n == 0
                 end if
                 call norm_solve_demand(memory%norm, normal_compliance(case%material), &
-                                       case%demand_t, options, normal, status, &
+                                       demand_of(workspace, case), options, normal, status, &
                                        memory%start%strips, memory%watch_norm)
             end if
             if (.not. is_error(status)) call take_rows(memory, workspace, status)
@@ -335,7 +335,7 @@ contains
         type(normal_result_t) :: converged
 
         problem%material = case%material
-        problem%demand = case%demand_t
+        problem%demand = demand_of(workspace, case)
         problem%mu = workspace%mu
         problem%creepage = case%creepage
         problem%friction = workspace%friction

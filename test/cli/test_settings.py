@@ -18,7 +18,7 @@ from cli_program import (
 # Words that no program can make up, and values that a contact needs to have a solution.
 VALUES = {"normal": "hertz", "tangential": "fastsim", "target": "area", "norm_start": "strips",
           "tolerance": "0.3", "budget_us": "1e9", "side": "left", "strips_per_patch": "9",
-          "max_elements": "20000", "subsurface": ".true."}
+          "max_elements": "20000", "subsurface": ".true.", "curved": ".true."}
 FLAG = ".true. or .false."
 NORM = ("element_dx_mm", "element_dy_mm", "error_target", "max_elements", "norm_start")
 AUTO = ("tolerance", "target", "budget_us")
@@ -113,7 +113,7 @@ class Settings(ProgramTest):
                 changed.append(row["name"])
         for name in ("normal", "tangential", "strips_per_patch", "points_per_strip", "fastsim_nx",
                      "fastsim_ny", "element_dx_mm", "element_dy_mm", "smoothing_um", "yield_MPa",
-                     "yield_shear_MPa", "subsurface"):
+                     "yield_shear_MPa", "subsurface", "curved"):
             self.assertIn(name, changed)
 
     def test_sides_that_are_given_stay_in_a_small_contact(self):

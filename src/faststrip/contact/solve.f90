@@ -129,6 +129,7 @@ contains
 
         call hold_environment(environment)
         workspace%solved_by = 0
+        workspace%load_factor = 1.0_wp
         workspace%field%n = 0
         workspace%strip_forces%n = 0
         call clear_steps(workspace%steps)
@@ -189,17 +190,14 @@ contains
         type(contact_result_t), intent(inout) :: result
         type(status_t), intent(out) :: status
 
-        type(contact_case_t) :: turned
         integer :: i
 
-        turned%contact_terms_t = case%contact_terms_t
         do i = 1, most_loads
-            call solve_by_methods(workspace, turned, normal, tangential, result, status)
+            call solve_by_methods(workspace, case, normal, tangential, result, status)
             if (is_error(status)) return
             if (abs(result%normal%load - case%load) <= near_load*case%load) return
             if (.not. result%normal%load > 0.0_wp) exit
-            turned%load = turned%load*(case%load/result%normal%load)
-            turned%warm_start = .true.
+            workspace%load_factor = workspace%load_factor*(case%load/result%normal%load)
         end do
         call add_limitation(status, st_target_missed, 'the force along the normal of the ' // &
                             'contact is not the load, but ' // &

@@ -83,7 +83,6 @@ module faststrip_tangential_strip_march
         real(wp), dimension(most_lanes) :: slope_x, slope_y0, slope_y1 !! of adhesion, MPa/mm
         real(wp), dimension(most_lanes) :: rigid_x, rigid_y !! rigid slip, without spin across
         real(wp), dimension(most_lanes) :: spin           !! rad/mm
-        real(wp), dimension(most_lanes) :: own_x, own_y, own_spin !! of them, a strip's own (S15)
         real(wp), dimension(most_lanes) :: k1, k2         !! flexibilities in slip, mm/MPa
         real(wp), dimension(most_lanes) :: onset          !! scale of 1/lambda, MPa
         real(wp), dimension(most_lanes) :: px, py         !! of the last element, MPa
@@ -160,7 +159,7 @@ contains
             else
                 call march(block, bound, strips, rolling, pressed, field)
             end if
-            call add_block(law, block, off_centre, rolling, sums, per_strip)
+            call add_block(law, strips, block, off_centre, rolling, sums, per_strip)
         end do
     end subroutine march_strips
 
@@ -359,8 +358,9 @@ contains
     end subroutine note_elements
 
     !> Add the sums of a block.
-    pure subroutine add_block(law, block, off_centre, rolling, sums, per_strip)
+    pure subroutine add_block(law, strips, block, off_centre, rolling, sums, per_strip)
         type(patch_law_t), intent(in) :: law
+        type(contact_strips_t), intent(in) :: strips
         type(block_t), intent(in) :: block
         real(wp), intent(in) :: off_centre !! centre of the bound over half-length
         type(rolling_t), intent(in) :: rolling
@@ -368,16 +368,19 @@ contains
         type(strip_forces_t), intent(inout), optional :: per_strip
 
         type(tangential_result_t) :: full
-        type(creepage_t) :: creepage
+        type(creepage_t) :: creepage, own
         real(wp) :: used, area, fx, fy, mz
         integer :: k
 
         creepage = rolling%creepage
         associate (result => sums%result, points => rolling%points)
             do k = 1, block%n
-                if (rolling%plane_counts) creepage = creepage_t( &
-                    rolling%creepage%cksi + block%own_x(k) + block%y(k)*block%own_spin(k), &
-                    rolling%creepage%ceta + block%own_y(k), block%spin(k))
+                if (rolling%plane_counts) then
+                    own = own_slip(strips, block%strip(k), block%y(k), rolling)
+                    creepage = creepage_t( &
+                        rolling%creepage%cksi + own%cksi + block%y(k)*own%cphi, &
+                        rolling%creepage%ceta + own%ceta, rolling%creepage%cphi + own%cphi)
+                end if
                 used = min(sqrt(block%sum_x(k)**2 + block%sum_y(k)**2) &
                            /(0.25_wp*pi*points*block%peak_bound(k)), 1.0_wp)
                 fx = block%cell(k)*block%sum_x(k)
@@ -400,8 +403,7 @@ contains
                 sums%covered = sums%covered + area
                 sums%pressed = sums%pressed + block%cell(k)*block%pressed(k)
                 if (rolling%plane_counts) sums%pressed = sums%pressed &
-                    + fx*(creepage%cksi - rolling%creepage%cksi) + fy*block%own_y(k) &
-                    + mz*block%own_spin(k)
+                    + fx*(own%cksi + block%y(k)*own%cphi) + fy*own%ceta + mz*own%cphi
                 sums%stuck = sums%stuck + area*(block%sticking(k)/points)**2
                 if (.not. present(per_strip)) cycle
                 associate (i => block%strip(k))
@@ -502,24 +504,33 @@ contains
         integer :: k
 
         do k = 1, block%lanes
-            own = strip_slip(strips, block%strip(min(k, block%n)), rolling%plane)
-            associate (given => rolling%given, plane => rolling%plane)
-                block%own_x(k) = own%cksi - (given%cksi - plane%cksi) &
-                                 + block%y(k)*(given%cphi - plane%cphi)
-                block%own_y(k) = own%ceta - (given%ceta - plane%ceta)
-                block%own_spin(k) = own%cphi - (given%cphi - plane%cphi)
-            end associate
+            own = own_slip(strips, block%strip(min(k, block%n)), block%y(k), rolling)
             ! (a/xd)^gamma_length
             stiffness = sqrt(sqrt(law%a/block%half_length(k)))
             stiffness = stiffness*sqrt(stiffness)
-            block%slope_x(k) = block%slope_x(k) + block%own_x(k)/law%l1*stiffness
-            block%slope_y0(k) = block%slope_y0(k) + block%own_y(k)/law%l2*stiffness
-            block%slope_y1(k) = block%slope_y1(k) + block%own_spin(k)/law%l3*stiffness
-            block%rigid_x(k) = block%rigid_x(k) + block%own_x(k)
-            block%rigid_y(k) = block%rigid_y(k) + block%own_y(k)
-            block%spin(k) = block%spin(k) + block%own_spin(k)
+            block%slope_x(k) = block%slope_x(k) + own%cksi/law%l1*stiffness
+            block%slope_y0(k) = block%slope_y0(k) + own%ceta/law%l2*stiffness
+            block%slope_y1(k) = block%slope_y1(k) + own%cphi/law%l3*stiffness
+            block%rigid_x(k) = block%rigid_x(k) + own%cksi
+            block%rigid_y(k) = block%rigid_y(k) + own%ceta
+            block%spin(k) = block%spin(k) + own%cphi
         end do
     end subroutine add_own_slip
+
+    !> What a strip has of slip, at its middle, and of spin beside its patch.
+    pure type(creepage_t) function own_slip(strips, k, y, rolling) result(own)
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: k
+        real(wp), intent(in) :: y ! of its middle, mm
+        type(rolling_t), intent(in) :: rolling
+
+        own = strip_slip(strips, k, rolling%plane)
+        associate (given => rolling%given, plane => rolling%plane)
+            own%cksi = own%cksi - (given%cksi - plane%cksi) + y*(given%cphi - plane%cphi)
+            own%ceta = own%ceta - (given%ceta - plane%ceta)
+            own%cphi = own%cphi - (given%cphi - plane%cphi)
+        end associate
+    end function own_slip
 
     !> What a strip on a curved surface has of slip, at its middle, and of spin beside the plane of
     !> the contact (S15).

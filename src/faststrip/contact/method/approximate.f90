@@ -7,7 +7,7 @@ module faststrip_contact_method_approximate
     use faststrip_normal_simple_kpec_strips, only: kpec_strips_solve
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_method, only: workspace_t
+    use faststrip_contact_method, only: workspace_t, demand_of
     use faststrip_contact_method_capacity, only: on_gap_t, on_strips_t, check_capacity, &
                                                  ellipse_strips
     use faststrip_contact_methods, only: normal_table, normal_kpec, normal_kpec_strips, &
@@ -55,8 +55,9 @@ contains
         type(normal_result_t), intent(out) :: normal  !! figures
         type(status_t), intent(out) :: status         !! of `kpec_solve`
 
-        call kpec_solve(workspace%solver%curve, normal_compliance(case%material), case%demand_t, &
-                        ellipse_strips(case%methods), workspace%strips, normal, status)
+        call kpec_solve(workspace%solver%curve, normal_compliance(case%material), &
+                        demand_of(workspace, case), ellipse_strips(case%methods), &
+                        workspace%strips, normal, status)
     end subroutine solve_by_kpec
 
     !> Solve by strips in the patch of KPEC.
@@ -71,7 +72,7 @@ contains
         call check_capacity(workspace, case%methods, status)
         if (is_error(status)) return
         call kpec_strips_solve(workspace%solver%curve, normal_compliance(case%material), &
-                               case%demand_t, ellipse_strips(case%methods), &
+                               demand_of(workspace, case), ellipse_strips(case%methods), &
                                workspace%solver%newton, workspace%strips, normal, status)
     end subroutine solve_by_kpec_strips
 
@@ -84,7 +85,7 @@ contains
         type(status_t), intent(out) :: status         !! of `analyn_solve`
 
         call analyn_solve(workspace%solver%curve, normal_compliance(case%material), &
-                          case%demand_t, ellipse_strips(case%methods), workspace%strips, normal, &
-                          status)
+                          demand_of(workspace, case), ellipse_strips(case%methods), &
+                          workspace%strips, normal, status)
     end subroutine solve_by_analyn
 end module faststrip_contact_method_approximate

@@ -15,7 +15,7 @@ module faststrip_contact_method_hertz
     use faststrip_tangential_hertz_errors, only: add_hertz_errors
     use faststrip_tangential_motion, only: cut_creepage
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_method, only: workspace_t, contact_result_t, demand_of
     use faststrip_contact_method_capacity, only: on_gap_t, ellipse_strips
     use faststrip_contact_methods, only: normal_table, normal_hertz
     implicit none
@@ -45,8 +45,8 @@ contains
         type(status_t), intent(out) :: status         !! of `hertz_solve_gap_demand`
 
         associate (hertz => workspace%hertz, curve => workspace%solver%curve)
-            call hertz_solve_gap_demand(curve, normal_compliance(case%material), case%demand_t, &
-                                        hertz, status)
+            call hertz_solve_gap_demand(curve, normal_compliance(case%material), &
+                                        demand_of(workspace, case), hertz, status)
             if (is_error(status)) return
             normal%load = hertz%load
             normal%penetration = hertz%penetration + curve%h_lowest

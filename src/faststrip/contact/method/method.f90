@@ -17,7 +17,7 @@ module faststrip_contact_method
     use faststrip_normal_simple_hertz, only: hertz_t
     use faststrip_normal_strip, only: strip_workspace_t
     use faststrip_normal_strips, only: contact_strips_t
-    use faststrip_normal_types, only: normal_result_t
+    use faststrip_normal_types, only: normal_result_t, demand_t
     use faststrip_stress_loads, only: loads_t
     use faststrip_stress_peak, only: peak_t
     use faststrip_tangential_force_errors, only: force_errors_t
@@ -33,6 +33,7 @@ module faststrip_contact_method
     public :: contact_result_t, workspace_t, times_t, wear_figures_t, strip_wear_t, found_motion_t
     public :: normal_method_t, tangential_method_t
     public :: enter_normal_method, enter_tangential_method, normal_method_of, tangential_method_of
+    public :: demand_of
 
     !> Most methods of a kind in a workspace: twice those of the list.
     integer, parameter :: most_methods = 2*max(size(normal_table), size(tangential_table))
@@ -140,6 +141,7 @@ module faststrip_contact_method
         type(heating_t) :: heat           !! of it, if its field has temperatures
         type(contact_methods_t) :: methods !! that the last contact was solved by
         type(auto_steps_t) :: steps        !! of the last contact, if by auto
+        real(wp) :: load_factor = 1.0_wp   !! of pressures over the case's load, see `demand_of`
         type(contact_strips_t) :: best_strips !! of the best step so far of auto
         integer :: first_strips = 0
             !! strips that the last contact of auto needed, 0: there was none
@@ -205,6 +207,16 @@ module faststrip_contact_method
     end interface
 
 contains
+
+    !> What pressures have to be: on a curved surface their sum is not the load, but what has it as
+    !> its force along the normal of the contact.
+    pure type(demand_t) function demand_of(workspace, case) result(demand)
+        type(workspace_t), intent(in) :: workspace !! that is solved in
+        type(contact_case_t), intent(in) :: case   !! load or penetration
+
+        demand = case%demand_t
+        demand%load = workspace%load_factor*demand%load
+    end function demand_of
 
     !> Enter a normal method: `solve_contact` takes it where a case asks for its number, in place of
     !> one of the core with the same number.

@@ -1,5 +1,6 @@
 !> Strips as a method of a contact, with their own error estimate, and ellipses in their place.
 module faststrip_contact_method_strip
+    use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: normal_compliance
     use faststrip_base_status, only: status_t, clear_status, is_error, add_limitation, &
                                      message_length, st_under_resolved
@@ -8,7 +9,7 @@ module faststrip_contact_method_strip
     use faststrip_normal_strip, only: strip_options_t, strip_solve_demand, estimate_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_method, only: workspace_t, contact_result_t, demand_of
     use faststrip_contact_method_capacity, only: on_strips_t, check_capacity
     use faststrip_contact_methods, only: normal_table, normal_strip, normal_equal_area, &
                                          normal_equal_moments
@@ -61,10 +62,12 @@ contains
         if (is_error(status)) return
         options%strips_per_patch = case%methods%strips_per_patch
         options%tolerance = case%strip_tolerance
-        options%warm_start = case%warm_start
+        ! Other pressures for the same load begin with those before.
+        options%warm_start = case%warm_start .or. abs(workspace%load_factor - 1.0_wp) > 0.0_wp
         options%stays = case%stays
         options%resolution_limit = case%resolution_limit
-        call strip_solve_demand(workspace%solver, normal_compliance(case%material), case%demand_t, &
+        call strip_solve_demand(workspace%solver, normal_compliance(case%material), &
+                                demand_of(workspace, case), &
                                 options, workspace%strips, normal, status)
     end subroutine solve_by_strips
 
