@@ -9,7 +9,8 @@
 !> a the inclination of a strip, and its moment about the reference point has the arms of the
 !> strips' places. Pressures and their own sums stay those of the plane.
 module faststrip_contact_method_surface
-    use faststrip_base_kinds, only: wp
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_material, only: combined_shear_modulus
     use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument, &
                                      st_under_resolved
     use faststrip_contact_case, only: contact_case_t
@@ -19,6 +20,7 @@ module faststrip_contact_method_surface
                                             name_resolution, name_force_resolution
     use faststrip_normal_strips, only: contact_strips_t, strip_load, strips_load
     use faststrip_contact_method, only: workspace_t, contact_result_t
+    use faststrip_contact_methods, only: tangential_faststrip, tangential_faststrip_plain
     implicit none
     private
 
@@ -29,9 +31,11 @@ module faststrip_contact_method_surface
     ! begins at theta = 0.17.
     ! Tuned [1]. Origin: CONTACT's example of radii 10 in 10.2 mm, theta = 0.55, with influence
     ! numbers of the curved bodies: pmax 9 % off, the load at a penetration 3 %, forces by 4 % of mu
-    ! N, by slip along the curve 6 % more; areas by Li's grooves.
+    ! N; areas by Li's grooves.
     real(wp), parameter :: lost_of_pmax = 0.35_wp, lost_of_area = 0.3_wp, &
-        lost_of_penetration = 0.1_wp, lost_of_forces = 0.15_wp, lost_of_slip = 0.25_wp
+        lost_of_penetration = 0.1_wp, lost_of_forces = 0.15_wp
+    ! Tuned [1]: force of a small slip over G times the area. Origin: C11/pi of a round patch.
+    real(wp), parameter :: stiffness = 1.4_wp
 
 contains
 
@@ -51,7 +55,7 @@ contains
         type(contact_case_t), intent(in) :: case        !! is its surface curved? Its pitch
         type(contact_strips_t), intent(inout) :: strips !! get their places
 
-        real(wp) :: y, before
+        real(wp) :: y, before, z
         integer :: k
 
         strips%is_curved = case%curved .and. curve%n > 0
@@ -62,15 +66,13 @@ contains
         if (.not. strips%follow_outline) &
             strips%pitch = 2.0_wp*max(gap_inv2r(curve, 0.0_wp), 0.0_wp)
         before = 0.0_wp
+        z = 0.0_wp
         do k = 1, strips%n
             y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
-            strips%inclination(k) = gap_inclination(curve, y)
-            if (k == 1) then
-                strips%depth(k) = descent(curve, 0.0_wp, y)
-            else
-                strips%depth(k) = strips%depth(k - 1) + descent(curve, before, y)
-            end if
+            z = z + descent(curve, before, y)
             before = y
+            strips%inclination(k) = gap_inclination(curve, y)
+            strips%depth(k) = z
         end do
     end subroutine lay_strips
 
@@ -121,43 +123,70 @@ contains
         end associate
     end subroutine add_pressure_errors
 
-    !> The same of the forces: in the plane also what turning its pressures, and the strips' own
-    !> slip, would change.
+    !> The same of the forces: in the plane also what turning its pressures would change, and where
+    !> strips do not have their own slip, what that would.
     pure subroutine add_turn_errors(workspace, case, result, status)
         type(workspace_t), intent(in) :: workspace      !! with the solution
         type(contact_case_t), intent(in) :: case        !! that was solved
         type(contact_result_t), intent(inout) :: result !! gets the errors, if it has some
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
-        real(wp) :: turn, load, side
-        integer :: k
+        real(wp) :: turn, lean, depth, bound, slip, added(2)
 
         if (is_error(status) .or. .not. result%forces_are_estimated) return
         turn = conformal_turn(workspace)
-        if (.not. turn > 0.0_wp) return
-        associate (errors => result%force_errors, strips => workspace%strips, &
-                   bound => workspace%mu*result%normal%load)
-            side = 0.0_wp
-            if (.not. case%curved .and. bound > 0.0_wp) then
-                do k = 1, strips%n
-                    associate (a => gap_inclination(workspace%solver%curve, &
-                                                    0.5_wp*(strips%y_left(k) + strips%y_right(k))))
-                        load = strip_load(strips%p0(k), strips%half_length(k), &
-                                          strips%y_right(k) - strips%y_left(k))
-                        side = side + load*sin(a)
-                    end associate
-                end do
-                side = abs(side)/bound
-            end if
-            turn = merge(lost_of_forces, lost_of_forces + lost_of_slip, case%curved)*turn**2
-            errors%fx = errors%fx + turn
-            errors%fy = errors%fy + turn + side
-            errors%mz = errors%mz + turn
+        bound = workspace%mu*result%normal%load
+        if (.not. (turn > 0.0_wp .and. bound > 0.0_wp)) return
+        call find_means(workspace%solver%curve, workspace%strips, lean, depth)
+        added = lost_of_forces*turn**2
+        if (.not. case%curved) added(2) = added(2) + abs(lean)*result%normal%load/bound
+        if (.not. (case%curved .and. (case%methods%tangential == tangential_faststrip .or. &
+                                      case%methods%tangential == tangential_faststrip_plain))) then
+            ! A little more slip, along x by the depth and across by the spin: what it adds to a
+            ! force that does not slide, or turns of one that does.
+            associate (c => sqrt(result%normal%area/pi), creepage => result%creepage, &
+                       pitch => 2.0_wp*max(gap_inv2r(workspace%solver%curve, 0.0_wp), 0.0_wp))
+                slip = norm2([creepage%cksi, creepage%ceta, 0.5_wp*c*creepage%cphi])
+                added = added + pitch*hypot(depth, 0.5_wp*c*lean)/max(slip, bound/(stiffness &
+                        *combined_shear_modulus(case%material)*result%normal%area))
+            end associate
+        end if
+        associate (errors => result%force_errors)
+            errors%fx = errors%fx + added(1)
+            errors%fy = errors%fy + added(2)
+            errors%mz = errors%mz + maxval(added)
             if (.not. btest(status%limitations, st_under_resolved)) &
                 call name_force_resolution(errors%fx, errors%fy, errors%mz - errors%arm, &
                                            case%force_limit, status)
         end associate
     end subroutine add_turn_errors
+
+    !> Means by load of the sine of the strips' inclination and of their depth, mm.
+    pure subroutine find_means(curve, strips, lean, depth)
+        type(gap_curve_t), intent(in) :: curve
+        type(contact_strips_t), intent(in) :: strips
+        real(wp), intent(out) :: lean, depth
+
+        real(wp) :: y, before, z, load
+        integer :: k
+
+        lean = 0.0_wp
+        depth = 0.0_wp
+        before = 0.0_wp
+        z = 0.0_wp
+        do k = 1, strips%n
+            y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
+            z = z + descent(curve, before, y)
+            before = y
+            load = strip_load(strips%p0(k), strips%half_length(k), &
+                              strips%y_right(k) - strips%y_left(k))
+            lean = lean + load*sin(gap_inclination(curve, y))
+            depth = depth + load*z
+        end do
+        load = max(strips_load(strips), tiny(load))
+        lean = lean/load
+        depth = depth/load
+    end subroutine find_means
 
     !> Half of what the surfaces turn by, if that makes the contact `conformal`, rad; else zero.
     pure real(wp) function conformal_turn(workspace) result(turn)
