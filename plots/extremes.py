@@ -16,8 +16,8 @@ from faststrip_plots import command, picture, style
 from faststrip_plots.results import revision
 from faststrip_plots.tables import InputError, read_table
 
-NAMES = ("chapter", "case", "method", "x_name", "x", "y_name", "y", "quantity", "value", "judge",
-         "status")
+NAMES = ("chapter", "case", "method", "x_name", "x", "y_name", "y", "quantity", "value",
+         "reference", "status")
 FIGURES = {"penetration": "approach", "pmax": "maximum pressure", "area": "area", "Fx": "$F_x$",
            "Fy": "$F_y$", "Mz": "$M_z$"}
 COLOURS = ("#0b3c78", "#f08519", "#4b8f3c", "#a8326e", "#5f4ba8", "#8a8a8a")
@@ -181,8 +181,8 @@ def draw_influence(rows):
     labels = [(width, place if heading in ("Off the centre line", "The same by GSL") else distance)
               for heading, _, _ in panels]
     return draw_maps(panels, labels), (
-        "judge: quadrature in quadruple precision, its uncertainty added; off the centre line the"
-        " largest of n = 0, 1, 10, 1000000")
+        "reference: quadrature in quadruple precision, its uncertainty added; off the centre line"
+        " the largest of n = 0, 1, 10, 1000000")
 
 
 def draw_normal(rows):
@@ -214,7 +214,7 @@ def draw_normal(rows):
         image = draw_map(place, Panel(heading, select(rows, chapter=chapter, quantity=quantity),
                                       limits), *names[chapter])
         colour_bar(figure, image, place, "relative error")
-    return figure, "judge: Hertz's exact solution"
+    return figure, "reference: Hertz's exact solution"
 
 
 def draw_tangential(rows):

@@ -1,10 +1,8 @@
-"""What pytest does not know of these tests: which share an installation, where runs are shared
-(shared_runs.py), which a TEXT names, and how they are counted in one line."""
+"""What pytest does not know of these tests: where runs are shared (shared_runs.py), which a TEXT
+names, and how they are counted in one line."""
 
 import os
 import tempfile
-
-from xdist.scheduler import LoadScopeScheduling
 
 # Names the folder of shared runs to shared_runs.py, in all processes.
 SHARED_RUNS = "FASTSTRIP_SHARED_RUNS"
@@ -75,15 +73,3 @@ def pytest_collection_modifyitems(config, items):
     text = config.option.text
     config.hook.pytest_deselected(items=[item for item in items if text not in full_name(item)])
     items[:] = [item for item in items if text in full_name(item)]
-
-
-class ByModule(LoadScopeScheduling):
-    """A process takes a module, or all of the interfaces, which share what they install."""
-
-    def _split_scope(self, nodeid):
-        module = nodeid.partition("::")[0]
-        return "embed" if module.startswith("embed/") else module
-
-
-def pytest_xdist_make_scheduler(config, log):
-    return ByModule(config, log)

@@ -60,6 +60,19 @@ def shared_run(words, found, timeout):
     return SharedRun(**said, made=files_below(kept / "made"))
 
 
+def made_once(name, make):
+    """A folder that make(folder) has filled, for all processes of a run of the tests."""
+    folder = place() / name
+    with open(folder.with_suffix(".lock"), "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        done = folder / "done"
+        if not done.exists():
+            folder.mkdir(exist_ok=True)
+            make(folder)
+            done.touch()
+    return folder
+
+
 @functools.cache
 def place():
     named = os.environ.get(PLACE)

@@ -588,7 +588,8 @@ def python_tests(text):
     if os.path.isdir("test/cli"):
         python_packages("test", "what the tests of the Python package and of NetCDF need")
         python_packages("vehicle", "scipy")
-    return pytest(text, ["test/tools", "test/cli", "test/plots", "test/embed"])
+    # Towards the end what is short, so that all processes end together.
+    return pytest(text, ["test/embed", "test/cli", "test/plots", "test/tools"])
 
 
 def quick_python_tests(text):

@@ -49,7 +49,7 @@ module faststrip_tabulate_contacts
     !> A wheel on its rail with all that solving needs, one for a thread.
     type :: wheel_solver_t
         private
-        type(wheelset_workspace_t) :: workspace
+        type(wheelset_workspace_t), pointer :: workspace => null()
         type(wheelset_result_t) :: result
         type(kalker_methods_t) :: kalker
         type(contact_case_t) :: case
@@ -67,6 +67,7 @@ contains
         integer :: i
 
         solver%case = model%case
+        allocate (solver%workspace)
         call reserve_wheelset(solver%workspace, model, status)
         if (is_error(status)) return
         associate (contacts => solver%workspace%wheel(side_right)%contact)
@@ -82,6 +83,7 @@ contains
         type(wheel_solver_t), intent(inout) :: solver !! serves no more
 
         call release_kalker(solver%kalker)
+        if (associated(solver%workspace)) deallocate (solver%workspace)
     end subroutine release_wheel_solver
 
     !> The contacts of a place, by a cold start: no bit depends on what was solved before. The

@@ -4,7 +4,7 @@ import math
 
 from cli_program import ROOT, LabTest
 
-COLUMNS = "chapter,case,method,x_name,x,y_name,y,quantity,value,judge,status".split(",")
+COLUMNS = "chapter,case,method,x_name,x,y_name,y,quantity,value,reference,status".split(",")
 FOLDERS = ("--contacts", ROOT / "reference" / "contact",
            "--references", ROOT / "reference" / "influence",
            "--examples", ROOT / "example" / "cases")
@@ -44,7 +44,8 @@ class Extremes(LabTest):
         rows = self.extremes()
         self.assertEqual(list(rows[0]), COLUMNS)
         self.assertEqual({row["chapter"] for row in rows}, set().union(*PARTS.values()))
-        places = [tuple(row[name] for name in COLUMNS if name not in ("value", "judge", "status"))
+        found = "value", "reference", "status"
+        places = [tuple(row[name] for name in COLUMNS if name not in found)
                   for row in rows if row["chapter"] != "references"]
         self.assertEqual(len(places), len(set(places)), "a row twice")
 

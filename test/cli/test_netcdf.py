@@ -1,13 +1,16 @@
 """Tables as NetCDF: read by xarray through HDF5, values, units and words are those of the CSV."""
 
+import functools
 import os
 import shutil
 import subprocess
 import sys
+from unittest import mock
 
 import cf_units
 import numpy as np
 import xarray as xr
+from h5netcdf.dimensions import Dimension
 
 import other_user
 from cli_program import BATCH_COLUMNS, PROGRAM, ROOT, ProgramTest, gap_text, parabola, profile_case
@@ -37,7 +40,11 @@ STATES = ("case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N\n"
 
 class Netcdf(ProgramTest):
     def opened(self, name):
-        return xr.load_dataset(self.folder / name, engine="h5netcdf")
+        # xarray asks for the size of `record` for each variable, and h5netcdf looks at all of them
+        # each time: with some hundred columns that takes seconds. Here each is asked for once.
+        size = functools.cache(Dimension.size.fget)
+        with mock.patch.object(Dimension, "size", property(size)):
+            return xr.load_dataset(self.folder / name, engine="h5netcdf")
 
     def converted(self, text, *words):
         """A table as it comes back."""

@@ -1,11 +1,9 @@
 """One installation for all tests of this folder, and what compiles and runs hosts against it."""
 
-import atexit
 import importlib
 import os
 import pathlib
 import re
-import shutil
 import struct
 import subprocess
 import sys
@@ -14,6 +12,7 @@ import unittest
 
 import blocks
 import page_in_browser  # noqa: F401
+from shared_runs import made_once
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -45,8 +44,16 @@ def callers():
     return found
 
 
+def install(folder):
+    done = subprocess.run([ROOT / "run", "install", "--prefix", folder / "prefix"], cwd=folder,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, encoding="utf-8", timeout=6000, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(done.stdout)
+
+
 class Installation:
-    """./run install into a folder that goes away with this process.
+    """./run install, once for all processes of a run of the tests.
 
     FASTSTRIP_INSTALLED names a prefix that is ready instead: the one of a mutant.
     """
@@ -55,22 +62,10 @@ class Installation:
 
     def __init__(self):
         ready = os.environ.get("FASTSTRIP_INSTALLED")
-        if ready:
-            self.prefix = pathlib.Path(ready)
-        else:
-            folder = tempfile.mkdtemp()
-            atexit.register(shutil.rmtree, folder, ignore_errors=True)
-            self.prefix = pathlib.Path(folder) / "prefix"
+        self.prefix = pathlib.Path(ready or made_once("installation", install) / "prefix")
         self.library = self.prefix / "lib" / "libfaststrip.so"
         self.archive = self.prefix / "lib" / "libfaststrip.a"
         self.header = self.prefix / "include" / "faststrip.h"
-        if ready:
-            return
-        done = subprocess.run([ROOT / "run", "install", "--prefix", self.prefix], cwd=folder,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, encoding="utf-8", timeout=6000, check=False)
-        if done.returncode != 0:
-            raise RuntimeError(done.stdout)
 
     @property
     def environment(self):

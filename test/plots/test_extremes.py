@@ -11,14 +11,14 @@ from plot_samples import Folder, csv_text, load
 # isort: split
 from faststrip_plots import style
 
-COLUMNS = "chapter,case,method,x_name,x,y_name,y,quantity,value,judge,status".split(",")
+COLUMNS = "chapter,case,method,x_name,x,y_name,y,quantity,value,reference,status".split(",")
 EXTREMES = "out/extremes/extremes.csv"
 FIGURES = ("penetration", "pmax", "area", "Fx", "Fy", "Mz")
 
 
 def row(chapter, method, x, y, quantity, value, case="", status="ok"):
     return dict(chapter=chapter, case=case, method=method, x_name="x", x=x, y_name="y", y=y,
-                quantity=quantity, value=value, judge="hertz", status=status)
+                quantity=quantity, value=value, reference="hertz", status=status)
 
 
 def influence_rows():

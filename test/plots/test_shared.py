@@ -4,6 +4,7 @@ import math
 import unittest
 
 import numpy as np
+import PIL.Image
 
 # First: it finds the plots' package.
 from plot_samples import (
@@ -56,6 +57,20 @@ class Styles(unittest.TestCase):
             style.save(figure, str(folder.path / "a.png"), ["faststrip 1", None, "faststrip 2",
                                                             "faststrip 1"])
         self.assertEqual(figure.get_supxlabel(), "faststrip 1; faststrip 2")
+
+    def test_the_few_colours_of_a_picture_are_those_drawn(self):
+        figure = style.new_figure(4.0, 3.0)
+        figure.subplots().imshow(np.arange(400.0).reshape(20, 20), cmap=style.MAP)
+        with Folder({}) as folder:
+            style.save(figure, str(folder.path / "a.png"), [])
+            with PIL.Image.open(folder.path / "a.png") as picture:
+                self.assertEqual((picture.mode, picture.size), ("P", (600, 450)))
+                pixels = np.asarray(picture.convert("RGB"), int)
+        figure.set_dpi(style.DPI)
+        figure.canvas.draw()
+        drawn = np.asarray(figure.canvas.buffer_rgba())[..., :3].astype(int)
+        self.assertGreater(len(np.unique(drawn.reshape(-1, 3), axis=0)), 300)
+        self.assertLess(np.abs(pixels - drawn).max(), 16)
 
 
 class Scales(unittest.TestCase):

@@ -33,6 +33,17 @@ from shared_runs import shared_run
 done = shared_run([sys.argv[2], "0"], {"in.txt": b"x"}, 600)
 print(done.stdout, done.made)
 """
+# Makes a folder and says what is in it.
+MAKING = """\
+import sys, time
+sys.path.insert(0, sys.argv[1])
+from shared_runs import made_once
+def make(folder):
+    time.sleep(0.5)
+    with open(folder / "made", "a") as stream:
+        stream.write("x")
+print(made_once("folder", make).joinpath("made").read_text())
+"""
 
 
 class Shared(unittest.TestCase):
@@ -105,6 +116,13 @@ class Shared(unittest.TestCase):
         said = {process.communicate()[0] for process in asking}
         self.assertEqual(said, {"0\n {'below/out.txt': b'xx'}\n"})
         self.assertEqual(self.runs(), 1)
+
+    def test_a_folder_is_made_by_one_process_and_again_if_it_could_not_be(self):
+        with self.assertRaises(ZeroDivisionError):
+            shared_runs.made_once("folder", lambda folder: 1 / 0)
+        making = [subprocess.Popen([sys.executable, "-c", MAKING, ROOT / "test"],
+                                   stdout=subprocess.PIPE, text=True) for _ in range(3)]
+        self.assertEqual({process.communicate()[0] for process in making}, {"x\n"})
 
     def test_without_a_place_runs_last_as_long_as_the_process(self):
         words = [sys.executable, "-c", ASKING, ROOT / "test", self.folder / "program"]

@@ -21,7 +21,7 @@ class SinglePrecision(unittest.TestCase):
             self.assertEqual((0, b""), (outcome.returncode, outcome.stderr))
             rows = list(csv.DictReader(out.read_text(encoding="ascii").splitlines()))
         self.assertEqual(list(rows[0]), "chapter,case,method,x_name,x,y_name,y,quantity,value,"
-                                        "judge,status".split(","))
+                                        "reference,status".split(","))
         centre = [float(row["value"]) for row in rows if row["method"] == "strip_influence"]
         # Neither as good as double precision nor worse than a few units in the last place.
         self.assertTrue(1e-9 < max(centre) < 1e-6, max(centre))

@@ -51,6 +51,17 @@ class OfTheProject(unittest.TestCase):
         self.assertGreater(len(ids), 40)
         self.assertEqual([name for name in ids if f"| `{name}` |" not in page], [])
 
+    def test_comparisons_and_the_table_of_the_same_contacts_agree(self):
+        figures = validation.Figures(ROOT)
+        rows = [row for row in figures.manifest if row["value_file"] == "sweep.csv"]
+        self.assertEqual(len(rows), 12)
+        for row in rows:
+            _, name, which = row["id"].split("-")
+            of_table = figures.measured.number("contacts", "strip + faststrip", f"{name}_{which}")
+            judged = 100.0 * figures.measured.number("verdicts", row["id"], "value")
+            # c is of CONTACT's patch here and of the strips' there: areas differ by 0.6 % at most.
+            self.assertAlmostEqual(judged / of_table, 1.0, delta=4e-3, msg=row["id"])
+
     def test_every_table_of_the_file_is_shown(self):
         shown = set()
 

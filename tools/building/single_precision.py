@@ -23,7 +23,7 @@ LAPACK = ("getrf", "getrs", "gecon", "geqrf", "ormqr", "trtrs", "gesvd", "posv",
 # Constants beyond the range of single precision become 0 or infinity.
 FLAGS = ("-fopenmp-simd -frecursive -fimplicit-none -std=f2018 -fno-range-check").split()
 KEY = ("case", "method", "x_name", "x", "y_name", "y", "quantity")
-COLUMNS = ("chapter", *KEY, "value", "judge", "status")
+COLUMNS = ("chapter", *KEY, "value", "reference", "status")
 
 
 def main():
@@ -94,18 +94,18 @@ def write(path, single, double):
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(COLUMNS)
         for key, row in single.items():
-            judge = double[key]["value"]
+            reference = double[key]["value"]
             error = ""
-            if row["value"] and judge:
-                error = relative(float(row["value"]), float(judge))
+            if row["value"] and reference:
+                error = relative(float(row["value"]), float(reference))
             writer.writerow(("single", *key, error, "double", row["status"]))
 
 
-def relative(value, judge):
-    """The relative difference; a judge of zero is met or missed altogether."""
-    if judge == 0.0:
+def relative(value, reference):
+    """The relative difference; a reference of zero is met or missed altogether."""
+    if reference == 0.0:
         return 0.0 if value == 0.0 else 1.0
-    return f"{abs(value / judge - 1.0):.6e}"
+    return f"{abs(value / reference - 1.0):.6e}"
 
 
 if __name__ == "__main__":

@@ -57,7 +57,8 @@ module faststrip_command_wheelset
     !> What a run has at hand.
     type :: run_t
         type(wheelset_model_t) :: model
-        type(wheelset_workspace_t) :: workspaces(2)      !! one for each state beside; first: state
+        type(wheelset_workspace_t), pointer :: workspaces(:) => null()
+            !! one for each state beside; first: state
         type(wheel_strips_t) :: strips                   !! of the last contact
         logical :: wants_strips = .false.
         type(tangential_field_t) :: field                !! of the last contact
@@ -139,6 +140,7 @@ contains
         run%wants_profiles = given(command, '--profiles')
         run%is_drawn = given(command, '--plot')
         run%profiles_of = option_text(command, '--profiles-of', '')
+        allocate (run%workspaces(2))
         allocate (kalker(most_contacts, 2, size(run%workspaces)))
         do i = 1, merge(2, 1, run%beside > 0.0_wp)
             call enter_kalker(run%workspaces(i), kalker(:, :, i), status)

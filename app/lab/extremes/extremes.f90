@@ -37,7 +37,7 @@ contains
             call find_contacts(contacts, examples, all_contacts)
         call begin_table(writer, file)
         call put_comment(writer, 'value: relative unless the quantity says otherwise, the ' &
-                         // 'uncertainty of the judge added')
+                         // 'uncertainty of the reference added')
         call put_row_header(writer)
         if (wanted('influence')) call influence_extremes(quick, influence_numbers, writer)
         if (wanted('normal')) call normal_extremes(quick, writer)

@@ -18,7 +18,7 @@ module faststrip_lab_extremes_influence
     use faststrip_lab_grid_cases, only: read_rows
     use faststrip_lab_extremes_rows, only: row_t, put_row, status_of
     use faststrip_command_program_console, only: fail_on_error, progress
-    use faststrip_lab_studies_exact_influence, only: exact_influence, judge_name, qp
+    use faststrip_lab_studies_exact_influence, only: exact_influence, reference_name, qp
     implicit none
     private
 
@@ -147,7 +147,7 @@ contains
             call exact_influence(0.0_wp, (2*n - 1)*real(b, qp), (2*n + 1)*real(b, qp), exact, &
                                  uncertainty)
             row = row_t(chapter=chapter, case='centre', x_name='b', x=b, y_name='n', &
-                        y=real(n, wp), quantity='rel_err', judge=judge_name)
+                        y=real(n, wp), quantity='rel_err', reference=reference_name)
             call clear_status(status)
             call put('closed', strip_influence(n, b))
             if (n <= table_last_distance) call put('column', column(n))
@@ -190,7 +190,7 @@ contains
             cr = (2*n + 1)*b
             do j = 1, size(places), merge(2, 1, quick)
                 row = row_t(chapter=chapter, x_name='b', x=b, y_name='X', y=places(j), &
-                            quantity='rel_err', judge=judge_name)
+                            quantity='rel_err', reference=reference_name)
                 write (row%case, '(a, i0)') 'n = ', n
                 call exact_influence(places(j), real(cl, qp), real(cr, qp), exact, uncertainty)
                 call clear_status(status)
@@ -218,7 +218,7 @@ contains
         end subroutine put
     end subroutine off_centre
 
-    !> The judge itself and the closed form, against committed numbers of 30 digits, of which a
+    !> The reference itself and the closed form, against committed numbers of 30 digits, of which a
     !> double keeps 16.
     subroutine committed(references, is_off_centre, quick, writer)
         type(references_t), intent(in) :: references
@@ -236,11 +236,11 @@ contains
             associate (n => references%figures(i, 1), b => references%figures(i, 2), &
                        known => references%figures(i, 3))
                 row = row_t(chapter='references', x_name='b', x=b, y_name='X', y=x, &
-                            quantity='rel_err', judge='committed')
+                            quantity='rel_err', reference='committed')
                 write (row%case, '(a, i0)') 'n = ', nint(n)
                 call exact_influence(x, (2*n - 1)*real(b, qp), (2*n + 1)*real(b, qp), exact, &
                                      uncertainty)
-                row%method = judge_name
+                row%method = reference_name
                 row%value = abs(real(exact/known - 1, wp)) + uncertainty
                 call put_row(writer, row)
                 row%method = 'closed'

@@ -184,7 +184,7 @@ contains
             end do
             row = row_t(chapter='noise', case=contact%name, method='strip+faststrip', &
                         x_name='noise', x=levels(level), y_name='draws', y=real(n_draws, wp), &
-                        judge='no noise')
+                        reference='no noise')
             call status_of(base_status, row)
             call put_value(writer, row, 'other_status', real(other_status, wp))
             if (.not. row%has_value) cycle
@@ -229,7 +229,7 @@ contains
         end do
         row = row_t(chapter='load_steps', case=contact%name, method='strip+faststrip', &
                     x_name='step', x=load_step, y_name='loads', y=real(n, wp), &
-                    judge='neighbours')
+                    reference='neighbours')
         do k = 1, size(figure_names)
             call status_of(worst, row)
             if (jump(k) > largest_jump .and. row%status == 'ok') row%status = 'jump'
@@ -288,7 +288,7 @@ contains
                     end do
                     call ieee_set_rounding_mode(before)
                     row = row_t(chapter='rounding', method='closed', x_name='b', x=b, &
-                                y_name='X', y=places(j), judge='4 modes')
+                                y_name='X', y=places(j), reference='4 modes')
                     write (row%case, '(a, i0)') 'n = ', distances(i)
                     call put_value(writer, row, 'influence', &
                                    (maxval(values) - minval(values))/abs(values(1)))
@@ -327,7 +327,7 @@ contains
         if (.not. whole) call figures_of(solver, contact, units(:, 2), units(:, 1), &
                                          status)
         row = row_t(chapter='rounding', case=contact%name, method='strip+faststrip', &
-                    judge='4 modes')
+                    reference='4 modes')
         if (.not. whole) row%method = 'solvers alone'
         call status_of(worst, row)
         do k = 1, size(figure_names)

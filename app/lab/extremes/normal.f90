@@ -62,11 +62,11 @@ contains
                 if (quick .and. strip_counts(j) > most_quick) exit
                 if (strip_counts(j) > most_at_every_ratio .and. 2*i - 1 /= size(few_ratios)) exit
                 row = row_t(chapter='strips', method='strip', x_name='a/b', x=few_ratios(i), &
-                            y_name='N', y=real(strip_counts(j), wp), judge='hertz')
+                            y_name='N', y=real(strip_counts(j), wp), reference='hertz')
                 contact%methods%strips_per_patch = strip_counts(j)
                 call put_solution(work, contact, known, row, writer)
                 if (.not. row%has_value) cycle
-                row%judge = 'dgecon'
+                row%reference = 'dgecon'
                 call put_value(writer, row, 'condition', condition(work%strips))
             end do
         end do
@@ -93,7 +93,7 @@ contains
                 contact%load = 10.0_wp**j
                 call make_ellipse(ratio, usual_points, contact, known)
                 row = row_t(chapter='ellipses', method='strip', x_name='a/b', x=ratio, &
-                            y_name='load_N', y=contact%load, judge='hertz')
+                            y_name='load_N', y=contact%load, reference='hertz')
                 call put_solution(work, contact, known, row, writer)
             end do
         end do
@@ -120,7 +120,7 @@ contains
                 call make_parabola(wheel_inv2r, 0.5_wp*curvature, point_counts(j), contact, known)
                 row = row_t(chapter='flat_gaps', method='strip', x_name='1/R_per_mm', &
                             x=curvature, y_name='points', y=real(point_counts(j), wp), &
-                            judge='hertz')
+                            reference='hertz')
                 call put_solution(work, contact, known, row, writer)
             end do
         end do

@@ -20,7 +20,7 @@ module faststrip_lab_extremes_rows
         real(wp) :: y = 0.0_wp
         character(len=20) :: quantity = ''  !! what was measured
         real(wp) :: value = 0.0_wp          !! without meaning if the status is an error's
-        character(len=12) :: judge = ''     !! what it was measured against
+        character(len=12) :: reference = '' !! what it was measured against
         character(len=20) :: status = 'ok'  !! a word of the library, or `jump`
         logical :: has_value = .true.
     end type row_t
@@ -31,8 +31,8 @@ contains
     subroutine put_row_header(writer)
         type(csv_writer_t), intent(inout) :: writer !! an open file
 
-        call put_header(writer, [character(len=8) :: 'chapter', 'case', 'method', 'x_name', 'x', &
-                                 'y_name', 'y', 'quantity', 'value', 'judge', 'status'])
+        call put_header(writer, [character(len=9) :: 'chapter', 'case', 'method', 'x_name', 'x', &
+                                 'y_name', 'y', 'quantity', 'value', 'reference', 'status'])
     end subroutine put_row_header
 
     !> Write a row. A value that is not finite has the status `not_finite` and an empty cell.
@@ -53,7 +53,7 @@ contains
         else
             call put_cell(writer, row%value)
         end if
-        call put_cell(writer, trim(row%judge))
+        call put_cell(writer, trim(row%reference))
         if (row%has_value .and. .not. ieee_is_finite(row%value)) then
             call put_cell(writer, 'not_finite')
         else

@@ -16,6 +16,7 @@ module faststrip_lab_grid_speed
     use faststrip_lab_grid_column_times, only: column_ns, column_names
     use faststrip_lab_grid_method_list, only: method_entry_t, read_method_list
     use faststrip_lab_pressures, only: solve_by_strips
+    use faststrip_wheelset_types, only: wheelset_workspace_t
     use faststrip_lab_studies_speed_states, only: states_t, read_states, time_states, state_methods
     use faststrip_command_program_clock, only: cpu_microseconds
     use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
@@ -63,6 +64,7 @@ contains
         type(timing_t), allocatable :: timings(:)
         type(solver_t), pointer :: solver
         type(states_t) :: states
+        type(wheelset_workspace_t) :: workspace
         real(wp), allocatable :: ns(:, :), gap_us(:)
         type(csv_writer_t) :: writer
         type(status_t) :: status
@@ -77,7 +79,7 @@ contains
         do i = 1, size(cases)
             cases(i)%mu = mu
         end do
-        call read_states(quick, states)
+        call read_states(quick, states, workspace)
         allocate (timings(size(entries)))
         call new_solver(solver, status)
         call fail_on_error(status)
@@ -100,7 +102,7 @@ contains
                 call time_gap(cases(i), gap_us(i))
                 call time_columns(cases(i), ns(:, i))
             end do
-            call time_states(states)
+            call time_states(states, workspace)
         end do
         do k = 1, size(entries)
             do i = 1, size(cases)

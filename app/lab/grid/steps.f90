@@ -36,7 +36,7 @@ module faststrip_lab_grid_steps
     ! Tuned [patches; points]: room for a solution and its gap. Origin: capacity.
     integer, parameter :: most_patches = 4, most_points = 4000
     ! Tuned [1]: tolerance of the solutions that errors are against. Origin: digits of a number.
-    real(wp), parameter :: judge_tolerance = 1.0e-11_wp
+    real(wp), parameter :: reference_tolerance = 1.0e-11_wp
 
     !> What solves.
     type :: bench_t
@@ -49,8 +49,8 @@ module faststrip_lab_grid_steps
     !> One step: what is solved, and what came of it.
     type, extends(contact_case_t) :: step_t
         real(wp) :: shift = 0.0_wp ! mm
-        real(wp) :: warm_us = 0.0_wp, cold_us = 0.0_wp, judge_us = 0.0_wp
-        type(normal_result_t) :: warm, cold, judge
+        real(wp) :: warm_us = 0.0_wp, cold_us = 0.0_wp, reference_us = 0.0_wp
+        type(normal_result_t) :: warm, cold, reference
         type(status_t) :: status
     end type step_t
 
@@ -189,11 +189,11 @@ contains
                                    history(k)%cold, status)
             end do
         end do
-        options%tolerance = judge_tolerance
+        options%tolerance = reference_tolerance
         do k = 1, size(history)
-            history(k)%judge_us = huge(1.0_wp)
-            call time_solution(bench, history(k), options, history(k)%judge_us, &
-                               history(k)%judge, status)
+            history(k)%reference_us = huge(1.0_wp)
+            call time_solution(bench, history(k), options, history(k)%reference_us, &
+                               history(k)%reference, status)
         end do
     end subroutine run_history
 
@@ -237,9 +237,9 @@ contains
                 call put_cells(writer, [step%warm%cost%iterations, step%warm%cost%factorings, &
                                         step%warm%cost%values, step%warm%cost%gradients, &
                                         step%cold%cost%iterations])
-                call put_cells(writer, [step%warm%penetration/step%judge%penetration - 1.0_wp, &
-                                        step%warm%pmax/step%judge%pmax - 1.0_wp, &
-                                        step%warm%area/step%judge%area - 1.0_wp])
+                call put_cells(writer, [step%warm%penetration/step%reference%penetration - 1.0_wp, &
+                                        step%warm%pmax/step%reference%pmax - 1.0_wp, &
+                                        step%warm%area/step%reference%area - 1.0_wp])
                 call put_cell(writer, trim(status_word(step%status%code)))
                 call end_row(writer)
                 tally%n = tally%n + 1

@@ -1,7 +1,7 @@
-!> The influence integral in twice the usual precision: the judge where GSL has no more digits.
+!> The influence integral in twice the usual precision: the reference where GSL has no more digits.
 !>
 !> Where a compiler has no reals of 30 digits (flang on x86-64) it is in the usual precision: the
-!> bound of its error says so, and so does `judge_name`.
+!> bound of its error says so, and so does `reference_name`.
 !>
 !> Each side of the field point X is an integral over tau (as in faststrip_tables_quadrature:
 !> no difference of near numbers), taken by the double-exponential rule `tau = a/(1 + exp(-pi sinh
@@ -12,13 +12,13 @@ module faststrip_lab_studies_exact_influence
     implicit none
     private
 
-    public :: exact_influence, judge_name, qp
+    public :: exact_influence, reference_name, qp
 
     integer, parameter :: quad = selected_real_kind(30)
     !> The widest kind there is, of 30 digits or the usual one.
     integer, parameter :: qp = merge(quad, wp, quad > 0)
-    !> What judges in tables.
-    character(len=*), parameter :: judge_name = trim(merge('quad  ', 'double', quad > 0))
+    !> Its name in the column of references.
+    character(len=*), parameter :: reference_name = trim(merge('quad  ', 'double', quad > 0))
 
     real(qp), parameter :: pi_q = acos(-1.0_qp)
     real(qp), parameter :: last_t = 4.75_qp       ! tau from 1e-78 a on

@@ -63,11 +63,10 @@ module faststrip_lab_studies_host
     character(len=*), parameter :: wanted(3) = [character(len=11) :: 'forces', 'estimates', &
                                                 'derivatives']
 
-    !> A wheelset and what solves it.
+    !> A wheelset and its solution.
     type :: pair_t
         character(len=:), allocatable :: name
         type(wheelset_model_t) :: model
-        type(wheelset_workspace_t) :: workspace
         type(wheelset_result_t) :: result
     end type pair_t
 
@@ -91,14 +90,15 @@ contains
 
         type(bench_case_t), allocatable :: cases(:)
         type(pair_t) :: pairs(2)
+        type(wheelset_workspace_t) :: workspaces(2)
         type(calls_t) :: calls
         type(csv_writer_t) :: writer
         real(wp) :: length, fastsim_us
         integer :: i, walk, step, demand, want
         logical :: counts
 
-        call make_pair(in_checkout('example/wheelset_states.nml'), pairs(1))
-        call make_pair(measured, pairs(2))
+        call make_pair(in_checkout('example/wheelset_states.nml'), pairs(1), workspaces(1))
+        call make_pair(measured, pairs(2), workspaces(2))
         call read_bench_cases(in_checkout('reference/contact'), cases)
         counts = instructions() >= 0
         if (.not. counts) call note('instructions cannot be counted on this machine: their ' &
@@ -114,11 +114,12 @@ contains
                     length = steps(step)
                     if (walk == all_of_it) length = steps_of_all(merge(2, 1, quick))
                     call progress(pairs(i)%name // ', walks', walk, size(walks))
-                    call make_walk(pairs(i), walks(walk), length, walk == all_of_it, quick, calls)
+                    call make_walk(pairs(i), workspaces(i), walks(walk), length, &
+                                   walk == all_of_it, quick, calls)
                     fastsim_us = fastsim_time(cases(1), cases(1)%material)
                     do demand = 1, size(demands)
                         do want = 1, size(wanted)
-                            call time_walk(pairs(i), calls, demand, want, rounds)
+                            call time_walk(pairs(i), workspaces(i), calls, demand, want, rounds)
                             call put_walk()
                         end do
                     end do
@@ -159,24 +160,26 @@ contains
     end subroutine bench_host
 
     !> The wheelset of a case file.
-    subroutine make_pair(path, pair)
+    subroutine make_pair(path, pair, workspace)
         character(len=*), intent(in) :: path
         type(pair_t), intent(out) :: pair
+        type(wheelset_workspace_t), intent(inout) :: workspace
 
         type(wheelset_case_t) :: case
         type(status_t) :: status
 
         call read_wheelset_case(path, case)
         call make_model(path, case, pair%model)
-        call reserve_wheelset(pair%workspace, pair%model, status)
+        call reserve_wheelset(workspace, pair%model, status)
         call fail_on_error(status, path)
         pair%name = case%bodies%wheel%name // ' on ' // case%bodies%rail%name
     end subroutine make_pair
 
     !> The states of a walk, there and back, or all of it once from end to end. Heights and rolls
     !> are those of both wheels under their loads; where there are none, the last ones.
-    subroutine make_walk(pair, walk, step, is_whole, quick, calls)
+    subroutine make_walk(pair, workspace, walk, step, is_whole, quick, calls)
         type(pair_t), intent(inout) :: pair
+        type(wheelset_workspace_t), intent(inout) :: workspace
         type(walk_t), intent(in) :: walk
         real(wp), intent(in) :: step
         logical, intent(in) :: is_whole, quick
@@ -193,12 +196,12 @@ contains
         allocate (calls%state(0:n), calls%us(n), calls%instructions(n), &
                   calls%solutions(n), calls%is_ok(n))
         state%speed = speed
-        pair%workspace%has_last = .false.
+        workspace%has_last = .false.
         do i = 0, n
             share = 1.0_wp - abs(1.0_wp - modulo(i*step/width, 2.0_wp))
             state%y = walk%y(1) + share*width
             state%yaw = walk%yaw(1) + share*(walk%yaw(2) - walk%yaw(1))
-            call solve_wheelset(pair%model, pair%workspace, state, demand_of(roll_free), &
+            call solve_wheelset(pair%model, workspace, state, demand_of(roll_free), &
                                 pair%result, status)
             if (.not. is_error(status)) then
                 state%z = pair%result%wheel(side_right)%z
@@ -217,8 +220,9 @@ contains
     end function demand_of
 
     !> Time all calls of a walk.
-    subroutine time_walk(pair, calls, demand, want, rounds)
+    subroutine time_walk(pair, workspace, calls, demand, want, rounds)
         type(pair_t), intent(inout) :: pair
+        type(wheelset_workspace_t), intent(inout) :: workspace
         type(calls_t), intent(inout) :: calls
         integer, intent(in) :: demand, want, rounds
 
@@ -232,15 +236,15 @@ contains
         calls%us = huge(1.0_wp)
         calls%instructions = huge(1.0_wp)
         do round = 1, rounds
-            pair%workspace%has_last = .false.
+            workspace%has_last = .false.
             do i = 0, size(calls%us)
                 last%code = st_ok
                 counted = real(instructions(), wp)
                 from = cpu_microseconds()
-                call solve_wheelset(pair%model, pair%workspace, calls%state(i), prescribed, &
+                call solve_wheelset(pair%model, workspace, calls%state(i), prescribed, &
                                     pair%result, status)
                 if (want == derivatives .and. .not. is_error(status)) &
-                    call find_wheelset_derivatives(pair%model, pair%workspace, prescribed%wants, &
+                    call find_wheelset_derivatives(pair%model, workspace, prescribed%wants, &
                                                    pair%result, slopes, last)
                 from = cpu_microseconds() - from
                 counted = (real(instructions(), wp) - counted)/1.0e3_wp ! Given: thousands

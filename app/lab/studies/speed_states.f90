@@ -26,7 +26,6 @@ module faststrip_lab_studies_speed_states
     !> States of a wheelset, and what they took.
     type :: states_t
         type(wheelset_model_t) :: model
-        type(wheelset_workspace_t) :: workspace
         type(wheelset_state_t), allocatable :: state(:)
         type(wheelset_demand_t), allocatable :: demand(:)
         character(len=16), allocatable :: name(:)
@@ -37,9 +36,10 @@ module faststrip_lab_studies_speed_states
 contains
 
     !> Read the states of the example, one for each place of the wheelset.
-    subroutine read_states(quick, states)
+    subroutine read_states(quick, states, workspace)
         logical, intent(in) :: quick               !! the first few only
         type(states_t), intent(inout) :: states
+        type(wheelset_workspace_t), intent(inout) :: workspace !! reserved for them
 
         ! Tuned [rows]: of the quick bench. Origin: chosen: five states.
         integer, parameter :: few_rows = 10
@@ -52,7 +52,7 @@ contains
 
         call read_wheelset_case(in_checkout('example/wheelset_states.nml'), case)
         call make_model(in_checkout('example/wheelset_states.nml'), case, states%model)
-        call reserve_wheelset(states%workspace, states%model, status)
+        call reserve_wheelset(workspace, states%model, status)
         call fail_on_error(status)
         call read_csv(in_checkout('example/wheelset_states.csv'), table, status)
         call fail_on_error(status)
@@ -77,8 +77,9 @@ contains
     end subroutine read_states
 
     !> Time all states once; of each the least is kept.
-    subroutine time_states(states)
-        type(states_t), intent(inout) :: states !! read
+    subroutine time_states(states, workspace)
+        type(states_t), intent(inout) :: states                !! read
+        type(wheelset_workspace_t), intent(inout) :: workspace !! reserved for them
 
         type(wheelset_result_t) :: result
         real(wp) :: from
@@ -86,9 +87,9 @@ contains
 
         do k = 1, size(state_methods)
             do i = 1, size(states%name)
-                if (k == 1 .or. i == 1) states%workspace%has_last = .false.
+                if (k == 1 .or. i == 1) workspace%has_last = .false.
                 from = cpu_microseconds()
-                call solve_wheelset(states%model, states%workspace, states%state(i), &
+                call solve_wheelset(states%model, workspace, states%state(i), &
                                     states%demand(i), result, states%status(k, i))
                 ! The first state has none before it.
                 if (is_error(states%status(k, i)) .or. (k == 2 .and. i == 1)) cycle
