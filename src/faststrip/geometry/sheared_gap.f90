@@ -34,15 +34,16 @@ contains
     pure subroutine turn_sheared_gap(gap)
         type(frame_gap_t), intent(inout) :: gap !! sampled; its slope is known
 
-        real(wp) :: a, b, s, b_turned, a_turned, theta, cosine, sine, x, part
+        real(wp) :: a, b, s, b_turned, a_turned, theta, cosine, sine, x, part, share
         integer :: i, n
 
         call fit_paraboloid(gap, a, b, s)
         if (.not. abs(s) > 0.0_wp) return
         part = a*s**2/b
         if (part > most_shear) s = s*sqrt(most_shear/part)
-        ! A round patch has no axes; a wide one is sheared by little. The turn fades in.
-        s = s*max(0.0_wp, min((b/a - round_ratio)/(slender_ratio - round_ratio), 1.0_wp))
+        ! A round or wide patch is not turned: its strips lie at their places. The turn fades in.
+        share = max(0.0_wp, min((b/a - round_ratio)/(slender_ratio - round_ratio), 1.0_wp))
+        s = s*share
         if (.not. abs(s) > 0.0_wp) return
         theta = 0.5_wp*atan2(2.0_wp*a*s, b + a*s**2 - a)
         cosine = cos(theta)
@@ -60,6 +61,7 @@ contains
             gap%h(i) = gap%h(i) + a*x**2
             gap%slope(i) = gap%slope(i)/(cosine - s*sine)
             gap%inv2r(i) = gap%inv2r(i)*a_turned/a
+            gap%x0(i) = gap%x0(i)*(1.0_wp - share)
         end do
 
     contains
