@@ -382,7 +382,8 @@ class WheelFaces(HostTest):
         place = wheelset.solve(y=0.413, axle_load=1.5e5, speed=2e4)
         for speed, rate in ((2e4, 30.0), (-2e4, -17.0)):
             state = {"y": 0.413, "z": float(place.z[0]), "roll": float(place.roll), "yaw": 0.0,
-                     "speed": speed, "y_rate": rate, "z_rate": 0.0, "roll_rate": 0.0, "yaw_rate": 0.01}
+                     "speed": speed, "y_rate": rate, "z_rate": 0.0, "roll_rate": 0.0,
+                     "yaw_rate": 0.01}
             found = wheelset.solve(**state, derivatives=True)
             self.assertEqual(found.n_solutions, (0, 0))
             alike = strips.solve(**state, derivatives=True).derivatives

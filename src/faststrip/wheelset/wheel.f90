@@ -43,8 +43,8 @@ module faststrip_wheelset_wheel
     ! Tuned [1]: how high gaps of neighbours are sampled, over the overlap. Origin: patches end
     ! below the overlap.
     real(wp), parameter :: near_height = 1.5_wp
-    ! Tuned [1]: how exact the heights of strips are that do not stand side by side, over the overlap;
-    ! forces follow them by as much. Origin: below what profiles leave open by far.
+    ! Tuned [1]: how exact heights of strips are that do not stand side by side, over the overlap.
+    ! Origin: forces follow them by as much, far below what profiles leave open.
     real(wp), parameter :: places_tolerance = 1.0e-7_wp
     ! Tuned [1]: largest part of what is missed that a step takes. Origin: safeguard: most take 0.7
     ! to 1.3.
