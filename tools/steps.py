@@ -798,8 +798,8 @@ def page(*words):
 def explore(*words):
     """The interactive explorer of this checkout, where ./run was called."""
     python_packages("explore", "Bokeh")
-    if not {"-h", "--help"} & set(words):
-        install_below(ROOT / "build" / "embed")
+    # For help, too: the package needs its library.
+    install_below(ROOT / "build" / "embed")
     os.environ.update(FASTSTRIP_PREFIX=str(ROOT / "build" / "embed"),
                       PYTHONPATH=str(ROOT / "python"))
     os.chdir(START)
@@ -843,14 +843,12 @@ def lookup(*words):
 
 
 def vehicle(*words):
-    if not {"-h", "--help"} & set(words):
-        python_packages("vehicle", "scipy")
-        install_below(ROOT / "build" / "embed")
+    python_packages("vehicle", "scipy")
+    install_below(ROOT / "build" / "embed")
     os.environ.update(FASTSTRIP_PREFIX=str(ROOT / "build" / "embed"),
                       PYTHONPATH=str(ROOT / "python"))
     do(sys.executable, "example/vehicle/vehicle.py", *words)
-    if not {"-h", "--help"} & set(words):
-        heading("done: pictures and figures are in out/vehicle/")
+    heading("done: pictures and figures are in out/vehicle/")
 
 
 def install_below(prefix):
@@ -977,7 +975,7 @@ def main(command="", *words):
     if command not in STEPS:
         print(__doc__, end="", file=sys.stderr)
         return 2
-    if command in ("build", "test", "demo") and {"-h", "--help"} & set(words):
+    if command in ("build", "test", "demo", "vehicle") and {"-h", "--help"} & set(words):
         print(__doc__, end="")
         return 0
     most = WORDS.get(command, 0)

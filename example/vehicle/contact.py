@@ -16,8 +16,6 @@ METHODS: dict[str, dict[str, Any]] = {
     "hertz": {"normal": "hertz", "tangential": "polach", "estimate": False},
     "table": {"estimate": False},
 }
-# Of differences, in y, z, roll, pitch, yaw and their rates.
-STEPS = (1e-4, 1e-5, 1e-8, 1e-4, 1e-6), (1e-1, 1e-2, 1e-5, 1e-3, 1e-4)
 
 
 @dataclass
@@ -44,8 +42,7 @@ class ByWheelset:
 
     def __init__(self, method: str, table: Any = None) -> None:
         self.wheelset = faststrip.Wheelset("s1002", "60e1", radius=RADIUS, mu=MU, **METHODS[method])
-        self.by_table = table is not None
-        if self.by_table:
+        if table is not None:
             self.wheelset.use_lookup(faststrip.WheelLookup(table))
         self.calls = 0
 
@@ -79,16 +76,8 @@ class ByWheelset:
 
     def derivatives(self, motion: Motion) -> Array | None:
         """Of the forces on both wheels together over coordinates and rates: (6, 2, N). None where
-        contacts come or go at this very state. A table has none: there they are differences."""
+        contacts come or go at this very state."""
         slopes = np.zeros((6, 2, N))
-        if self.by_table:
-            here = self.forces(motion).sum(0)
-            for k, c in np.ndindex(2, N):
-                moved = [motion.q.copy(), motion.v.copy()]
-                moved[k][c] += STEPS[k][c]
-                there = self.forces(Motion(*moved, motion.speed, motion.rails)).sum(0)
-                slopes[:, k, c] = (there - here) / STEPS[k][c]
-            return slopes
         wheels = -self.solve(motion, derivatives=True).derivatives
         if not np.isfinite(wheels).all():
             return None

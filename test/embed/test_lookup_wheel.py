@@ -373,6 +373,42 @@ class WheelFaces(HostTest):
             self.assertEqual(here.n_solutions, (0, 0))
             self.assertAlmostEqual(here.force[0, 2] / there.force[0, 2], 1.0, delta=table.promised)
 
+    def test_derivatives_are_those_of_the_table(self):
+        strips, wheelset = (self.package.Wheelset(estimate=False) for _ in range(2))
+        wheelset.use_lookup(self.table)
+        # Steps of y, z, roll, yaw and their rates: a table of one yaw has neighbours beside it.
+        steps = np.array([1e-5, 1e-6, 1e-8, 2e-8, 1e-2, 1e-2, 1e-5, 1e-5])
+        names = ["y", "z", "roll", "yaw", "y_rate", "z_rate", "roll_rate", "yaw_rate"]
+        place = wheelset.solve(y=0.413, axle_load=1.5e5, speed=2e4)
+        for speed, rate in ((2e4, 30.0), (-2e4, -17.0)):
+            state = {"y": 0.413, "z": float(place.z[0]), "roll": float(place.roll), "yaw": 0.0,
+                     "speed": speed, "y_rate": rate, "z_rate": 0.0, "roll_rate": 0.0,
+                     "yaw_rate": 0.01}
+            found = wheelset.solve(**state, derivatives=True)
+            self.assertEqual(found.n_solutions, (0, 0))
+            alike = strips.solve(**state, derivatives=True).derivatives
+            for k, name in enumerate(names):
+                there, here = (np.hstack([of.force, of.moment]) for of in (
+                    wheelset.solve(**state | {name: state[name] + steps[k]}),
+                    wheelset.solve(**state | {name: state[name] - steps[k]})))
+                slope = (there - here) / (2 * steps[k])
+                scale = abs(slope[:, :3]).max(), abs(slope[:, 3:]).max()
+                for part, size in zip((slice(0, 3), slice(3, 6)), scale):
+                    np.testing.assert_allclose(found.derivatives[:, part, k], slope[:, part],
+                                               atol=5e-5 * size, err_msg=name)
+                    # The table's own slopes are near those of strips.
+                    np.testing.assert_allclose(found.derivatives[:, part, k], alike[:, part, k],
+                                               atol=0.15 * size, err_msg=name)
+
+    def test_derivatives_at_the_ends_of_a_table_look_to_its_inside(self):
+        wheelset = self.package.Wheelset(estimate=False)
+        wheelset.use_lookup(self.table)
+        inside, there = (wheelset.solve(y=y, load=8e4, speed=2e4, roll=0.0, derivatives=True)
+                         for y in (2.0 - 1e-6, 2.0))
+        self.assertEqual(there.n_solutions[0], 0)
+        size = abs(inside.derivatives[0]).max(0)
+        self.assertLess((abs(there.derivatives - inside.derivatives)[0] / size).max(), 1e-3)
+
     def test_roll_moves_a_wheel_as_strips_have_it(self):
         strips, wheelset = (self.package.Wheelset(estimate=False) for _ in range(2))
         wheelset.use_lookup(self.table)
@@ -441,9 +477,7 @@ class WheelFaces(HostTest):
             ("of an older version", lambda: good.use_lookup(older)),
             ("order must be linear or cubic", lambda: good.use_lookup(table, order="square")),
             ("a WheelLookup or None", lambda: good.use_lookup(1)),
-            ("no strips, elements or wear", lambda: solved.strips(0)),
-            ("no derivatives", lambda: solved.solve(y=0.3, load=8e4, speed=2e4, roll=0.0,
-                                                    derivatives=True)))
+            ("no strips, elements or wear", lambda: solved.strips(0)))
 
     def test_looking_up_allocates_nothing(self):
         self.write("counted.c", COUNTER + ALLOCATIONS)

@@ -6,16 +6,17 @@
 !> patches and contacts that the solution has; where a neighbour has others the one on the other
 !> side is taken. Edges of strips stay, too: where they would follow the gap that is up to 1.4e-3 of
 !> the largest of a column, else derivatives are within 1e-5. Over the rates pressures stay, and
-!> only the creep forces are found again.
+!> only the creep forces are found again. Derivatives of a wheel that a table answers for are those
+!> of the table between its nodes: it is asked for each neighbour.
 module faststrip_wheelset_derivatives
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
-                                     st_bad_argument
+                                     st_bad_argument, st_no_convergence
     use faststrip_contact_derivatives, only: check_differentiable, creepage_step, &
                                              difference_step, finest
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, reversed_state, is_at_rest
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_wheelset_height, only: set_outline, try_height, as_right
+    use faststrip_wheelset_height, only: set_outline, try_height, try_table, as_right
     use faststrip_wheelset_predict, only: yaw_lever
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_result_t, wheel_result_t, side_right, side_left
@@ -51,7 +52,7 @@ contains
                                                                    !! where not asked for
         type(status_t), intent(out) :: status
             !! those of `check_differentiable`; `st_bad_argument`: no solution;
-            !! `st_no_convergence`: contacts or patches come or go at this state
+            !! `st_no_convergence`: contacts or patches come or go at this state, or the table ends
 
         type(environment_t) :: environment
         type(wheel_result_t), allocatable :: near(:)
@@ -68,11 +69,6 @@ contains
         do side = side_right, side_left
             if (.not. wants(side) .or. is_error(status)) cycle
             if (result%wheel(side)%n == 0) cycle
-            if (result%wheel(side)%solutions == 0) then
-                call set_status(status, st_bad_argument, 'a wheel that a lookup table answers ' &
-                                // 'for has no derivatives: look them up, or take strips')
-                cycle
-            end if
             call find_of_wheel(model, workspace, side, result%wheel(side), near(1), &
                                derivatives(:, :, side), status)
         end do
@@ -94,7 +90,9 @@ contains
         real(wp) :: step(2*n_coordinates), forces(6, n_coordinates), here(6), &
             there(6), smallest
         integer :: i, j
+        logical :: by_table
 
+        by_table = wheel%solutions == 0
         state = workspace%last_state
         state%z = wheel%z
         smallest = minval(wheel%contact(:wheel%n)%figures%normal%penetration)
@@ -123,7 +121,8 @@ contains
         if (failed() .or. is_error(there_is_none)) then
             if (is_error(there_is_none)) status = there_is_none
             ! The solution as it was.
-            call try_height(model, workspace, as_solved(state), side, state%z, near)
+            if (.not. by_table) &
+                call try_height(model, workspace, as_solved(state), side, state%z, near)
             return
         end if
         do i = 1, n_coordinates
@@ -163,19 +162,30 @@ contains
             real(wp), intent(out) :: found(6)
 
             real(wp) :: touch
+            logical :: is_there
 
-            if (.not. outlined) &
-                call set_outline(model, workspace, as_solved(there), side, touch, status)
-            call try_height(model, workspace, as_solved(there), side, there%z, near, finest)
+            if (by_table) then
+                call try_table(model, workspace, as_solved(there), side, there%z, near, is_there)
+                if (.not. is_there) &
+                    call set_status(status, st_no_convergence, 'the table ends at this state')
+            else
+                if (.not. outlined) &
+                    call set_outline(model, workspace, as_solved(there), side, touch, status)
+                call try_height(model, workspace, as_solved(there), side, there%z, near, finest)
+            end if
             call turn_back(near)
             found = [near%force, near%moment]
         end subroutine solve
 
-        ! The same pressures, moving otherwise.
+        ! The same pressures, moving otherwise; a table is asked for the state.
         subroutine move_near(moving, found)
             type(wheelset_state_t), intent(in) :: moving
             real(wp), intent(out) :: found(6)
 
+            if (by_table) then
+                call solve(moving, .true., found)
+                return
+            end if
             call move_wheel(model, model%pair(side), workspace%wheel(side), &
                             as_right(as_solved(moving), side), state%z, near)
             call turn_back(near)

@@ -68,7 +68,13 @@ module faststrip_geometry_contact_frame
         real(wp), allocatable :: slope(:)       !! dh/dy'
         real(wp), allocatable :: inclination(:) !! mean slope of both less the contact angle, rad
         real(wp), allocatable :: x0(:)          !! where they are nearest along x, from the
-                                                !! reference point, mm
+                                                !! reference point, mm; of a turned gap what is left
+        real(wp) :: apart = 0.0_wp              !! how far places of strips count: 0, not, to 1
+        real(wp), allocatable :: reach(:)       !! half-length of a patch there, mm; if they count
+        real(wp), allocatable :: lower(:, :)    !! (n, 4) for it: what is added to h; what it
+                                                !! misses, now and before; the sum, mm
+        real(wp), allocatable :: tilt(:, :)     !! (n, 4) the same of the slope
+        real(wp), allocatable :: bend(:, :)     !! (n, 4) the same of 1/(2 R), 1/mm
     end type frame_gap_t
 
 contains
@@ -137,10 +143,12 @@ contains
             gap%of_rail = 0.0_wp
             if (size(gap%y) == n) return
             deallocate (gap%wheel, gap%across, gap%down, gap%y, gap%h, gap%inv2r, gap%of_rail, &
-                        gap%slope, gap%inclination, gap%x0)
+                        gap%slope, gap%inclination, gap%x0, gap%reach, gap%lower, &
+                        gap%tilt, gap%bend)
         end if
         allocate (gap%wheel(n), gap%across(n), gap%down(n), gap%y(n), gap%h(n), gap%inv2r(n), &
-                  gap%of_rail(n), gap%slope(n), gap%inclination(n), gap%x0(n), source=0.0_wp)
+                  gap%of_rail(n), gap%slope(n), gap%inclination(n), gap%x0(n), gap%reach(n), &
+                  gap%lower(n, 4), gap%tilt(n, 4), gap%bend(n, 4), source=0.0_wp)
     end subroutine reserve_frame_gap
 
     !> A vector of the contact frame in the track.

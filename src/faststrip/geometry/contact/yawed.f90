@@ -32,6 +32,10 @@ module faststrip_geometry_contact_yawed
     ! Tuned [1]: smallest depth that a reach is taken of, over the largest. Origin: strips at the
     ! ends of a patch are 0.3 times as long as the longest.
     real(wp), parameter :: least_depth = 0.09_wp
+    ! Tuned [1]: spread of the strips' places over the length of the longest, squared, up to which
+    ! they lie side by side, and from which their places count wholly. Origin: measured: the load of
+    ! a height changes by 0.035 of it.
+    real(wp), parameter :: near_places = 0.02_wp, apart_places = 2.0_wp*near_places
     ! Tuned [1]: smallest secant over the curvature of the circle. Origin: safeguard: beyond a kink
     ! of the profile a parabola tells nothing.
     real(wp), parameter :: least_secant = 0.2_wp
@@ -68,7 +72,39 @@ contains
             end do
         end if
         call turn_sheared_gap(gap)
+        call find_places(gap)
     end subroutine find_frame_gap
+
+    ! Whether strips of a gap have places along x that count, and how far they reach.
+    pure subroutine find_places(gap)
+        type(frame_gap_t), intent(inout) :: gap
+
+        real(wp) :: first, last, longest
+        integer :: i
+
+        first = huge(first)
+        last = -huge(last)
+        longest = 0.0_wp
+        do i = 1, gap%n
+            gap%reach(i) = half_length(gap, i)
+            if (gap%h(i) >= gap%overlap) cycle
+            first = min(first, gap%x0(i))
+            last = max(last, gap%x0(i))
+            longest = max(longest, gap%reach(i))
+        end do
+        gap%apart = 0.0_wp
+        if (longest > 0.0_wp) gap%apart = ((last - first)/(2.0_wp*longest))**2
+        gap%apart = max(0.0_wp, min((gap%apart - near_places)/(apart_places - near_places), 1.0_wp))
+    end subroutine find_places
+
+    ! Half-length of a patch at point i of a gap, mm.
+    pure real(wp) function half_length(gap, i)
+        type(frame_gap_t), intent(in) :: gap
+        integer, intent(in) :: i
+
+        half_length = sqrt(patch_part*max(gap%overlap - gap%h(i), least_depth*gap%overlap) &
+                           /gap%inv2r(i))
+    end function half_length
 
     ! What the profile's curvature adds to that along x, at most within the overlap, over it: the
     ! nearest place runs with y' by as much over sin(yaw).
@@ -106,7 +142,7 @@ contains
             ahead = 0.0_wp
         end if
         circle = gap%inv2r(i) - gap%of_rail(i)
-        reach = sqrt(patch_part*max(gap%overlap - gap%h(i), least_depth*gap%overlap)/gap%inv2r(i))
+        reach = half_length(gap, i)
         secant = (rise_at(reach) + rise_at(-reach))/(2.0_wp*reach**2)
         secant = max(secant, least_secant*circle) + gap%of_rail(i)
 
