@@ -62,14 +62,14 @@ module faststrip_normal_strip_converge
     ! Tuned [1]. Origin: chosen for the time: factors cost some steps; with .25 warm ones take less,
     ! cold ones more.
     real(wp), parameter :: slow = 0.35_wp ! steps that shrink less ask for new factors
-    ! Tuned [1]: a first step this large with old factors asks for new ones. Origin: as above; without
-    ! it 3 of 350 hostile gaps fewer are `ok`.
+    ! Tuned [1]: a first step this large with old factors asks for new ones. Origin: as above;
+    ! without it fewer hostile gaps are `ok`.
     real(wp), parameter :: far = 0.5_wp
     ! Tuned [1]: part of a step with new factors that does not shrink; least part of any. Origin:
     ! chosen against steps back and forth; strips want to leave.
     real(wp), parameter :: damping = 0.5_wp, least_scale = 0.02_wp
-    ! Tuned [1]: Largest steps of the logarithm of a length and of the penetration over itself, and of
-    ! an end over the width of its patch. Origin: convergence from afar.
+    ! Tuned [1]: Largest steps of the logarithm of a length and of the penetration over itself, and
+    ! of an end over the width of its patch. Origin: convergence from afar.
     real(wp), parameter :: max_log_step = 0.5_wp, max_end_step = 0.15_wp
     ! Tuned [1]: most of its pressure that a step takes from a strip, ends free. Origin: convergence
     ! from afar.

@@ -3,8 +3,8 @@
 !> Together (`faststrip_normal_strip_converge`) is the usual way. What then overlaps beside the
 !> patches joins them, and what has met merges, until nothing changes. In turn, strips are solved
 !> for between ends that are held, then the ends move; strips that leave are cut off and split their
-!> patch. From near enough strips and ends are tried together again. A pass whose ends move little
-!> more may stand.
+!> patch. After the first passes strips and ends are tried together again. A pass whose ends move
+!> little more may stand.
 module faststrip_normal_strip_level
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t, usual_strips, usual_strip_tolerance
@@ -14,8 +14,8 @@ module faststrip_normal_strip_level
     use faststrip_normal_strip_figures, only: hand_over, summarize, correction_of
     use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
                                               free_ends, drop_slivers
-    use faststrip_normal_strip_state, only: strip_workspace_t, position_strips, remember, &
-                                            forget_edges, forget_factors
+    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, position_strips, &
+                                            remember, forget_edges, forget_factors
     use faststrip_normal_types, only: normal_result_t, demand_t, cost_t
     implicit none
     private
@@ -203,9 +203,17 @@ contains
         workspace%graded = .true.
         call couple(workspace, compliance, demand, level, attempt, strips, result)
         if (attempt%converged) return
+        ! The next warm start is from what was handed over.
         attempt = solved
-        call forget_edges(workspace, .true.)
+        call forget_edges(workspace, .false.)
         call forget_factors(workspace)
+        associate (now => workspace%strips, n => strips%n)
+            now%n = n
+            now%p0(:n) = strips%p0(:n)
+            now%half_length(:n) = strips%half_length(:n)
+        end associate
+        call position_edges(workspace, attempt%patches)
+        call remember(workspace, attempt%patches)
     end subroutine let_edges_follow
 
     !> A neighbour of the last solution, for derivatives: the same patches, strips and edges, solved
