@@ -29,7 +29,6 @@ CONSTANTS = (
     ("strip/levels.f90", "most_at_once", "20", "More than 20 strips are reached"),
     ("strip/levels.f90", "level_factor", "2", "twice as many and one at most"),
     ("strip/level.f90", "loose_end_tolerance", "0.3", "would move by 0.3 strip or less"),
-    ("strip/level.f90", "coupling_move", "1.0", "When they move by less than one strip"),
     ("strip/level.f90", "max_passes", "40", "40 iterations"),
     ("strip/level.f90", "max_splits_at_all", "8", "eight splits"),
     ("strip/level.f90", "max_couplings", "4", "at most four iterations"),

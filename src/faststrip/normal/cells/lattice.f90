@@ -39,8 +39,7 @@ module faststrip_normal_cells_lattice
     use faststrip_normal_cells, only: lattice_cells_t, reserve_cells, position_cells, set_reach, &
                                       record_strips
     use faststrip_normal_cells_overlap, only: find_waves, overlap_tolerance, named_overlap
-    use faststrip_normal_cells_ranges, only: first_ranges, next_ranges
-    use faststrip_normal_cells_start, only: start_depth
+    use faststrip_normal_cells_ranges, only: start_depth, first_ranges, next_ranges
     use faststrip_normal_limitations, only: check_curvature, check_depth
     use faststrip_normal_cells_estimate, only: lattice_errors_t, lattice_figures_t, &
                                                lattice_figures, estimate_errors

@@ -21,7 +21,7 @@ module faststrip_normal_simple_kpec_strips
     use faststrip_normal_simple_approximate, only: lowest_between
     use faststrip_normal_simple_kpec, only: kpec_solve
     use faststrip_normal_patch_curves, only: curve_peak
-    use faststrip_normal_strip_newton, only: newton_workspace_t
+    use faststrip_normal_strip_state, only: newton_workspace_t
     use faststrip_normal_strips, only: contact_strips_t, last_of_patch, strip_load
     use faststrip_normal_types, only: demand_t, normal_result_t
     use faststrip_numerics_lu, only: lu_factor, lu_solve

@@ -1,8 +1,8 @@
 !> Strips and patch ends solved for together, by linearised influence coefficients.
 !>
 !> The ends of the patches join the unknowns of `faststrip_normal_strip_equations`, each moving
-!> outwards in units of its end strip's width; their equations are those of
-!> `faststrip_normal_strip_end_unknowns`: the squared strip length, extrapolated, is 0 at the end.
+!> outwards in units of its end strip's width (`faststrip_normal_strip_coupled_equations`): the
+!> squared strip length, extrapolated, is 0 at the end.
 !> Newton's method solves them with coefficients that are linearised at their last evaluation
 !> (`faststrip_normal_strip_linearised`), and with factors that serve until steps shrink too slowly.
 !> The coefficients err by the square of what has changed: they are evaluated anew until that is
@@ -19,14 +19,12 @@ module faststrip_normal_strip_converge
     use faststrip_normal_strip_equations, only: count_step, count_evaluation, mark_leaving_strips
     use faststrip_normal_strip_linearised, only: linearise_coefficients, is_linear_of, &
                                                  linear_change
-    use faststrip_normal_strip_coupled_equations, only: coupled_residual, coupled_factors
-    use faststrip_normal_strip_end_unknowns, only: end_t, list_ends, shift_ends, in_order
+    use faststrip_normal_strip_coupled_equations, only: end_t, list_ends, shift_ends, in_order, &
+                                                        coupled_residual, coupled_factors
     use faststrip_normal_strip_ends, only: end_width
-    use faststrip_normal_strip_newton, only: newton_workspace_t
-    use faststrip_normal_strip_pass, only: pass_strips_t
     use faststrip_normal_strip_patches, only: patches_t, max_patches
-    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, look_for_edges, &
-                                            renew_edges
+    use faststrip_normal_strip_state, only: strip_workspace_t, newton_workspace_t, position_edges, &
+                                            look_for_edges, renew_edges
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private
@@ -46,62 +44,49 @@ module faststrip_normal_strip_converge
     real(wp), parameter :: after_look = 5.0_wp
     ! Tuned [steps; evaluations; factors]: most of each. Origin: safeguards: some ten, three and two
     ! do.
-    integer, parameter :: max_steps = 60, max_evaluations = 8, max_factorings = 25
+    integer, parameter :: max_steps = 60, max_evaluations = 16, max_factorings = 25
     ! Tuned [1]: Error of a solution by linearised coefficients over the square of what has
     ! changed. Origin: measured: .01 in the median, .02 to .1 in 95 %.
     real(wp), parameter :: second_order = 0.05_wp
     ! Tuned [1]: the same of several patches, whose distances change. Origin: measured: .7.
     real(wp), parameter :: second_order_apart = 1.0_wp
-    ! Tuned [1]: the steps' tolerance over that asked for. Origin: chosen: steps cost little.
+    ! Tuned [1]: the steps' tolerance over that asked for, or over the square of what has changed,
+    ! where that is more: coefficients are evaluated anew then. Origin: chosen: steps cost little.
     real(wp), parameter :: finest = 0.3_wp
     ! Tuned [1]: what is left where edges are looked at, over the change that coefficients allow.
     ! Origin: chosen: edges change by less than their tolerance from there.
     real(wp), parameter :: near = 0.2_wp
-    ! Tuned [1]: the steps' tolerance over the square of what has changed, where that is more.
-    ! Origin: chosen for the time: coefficients are evaluated anew then.
-    real(wp), parameter :: worth = 0.3_wp
     ! Tuned [1]: change from which coefficients are not trusted; the same with ends held. Origin:
     ! convergence of hostile gaps: with .2 ends held 14 of 888 fewer are `ok`.
     real(wp), parameter :: trusted = 0.5_wp, trusted_held = 0.06_wp
     ! Tuned [1]. Origin: chosen for the time: factors cost some steps; with .25 warm ones take less,
     ! cold ones more.
     real(wp), parameter :: slow = 0.35_wp ! steps that shrink less ask for new factors
-    ! Tuned [1]: a first step this large with old factors asks for new ones. Origin: as above.
+    ! Tuned [1]: a first step this large with old factors asks for new ones. Origin: as above;
+    ! without it fewer hostile gaps are `ok`.
     real(wp), parameter :: far = 0.5_wp
     ! Tuned [1]: part of a step with new factors that does not shrink; least part of any. Origin:
     ! chosen against steps back and forth; strips want to leave.
     real(wp), parameter :: damping = 0.5_wp, least_scale = 0.02_wp
-    ! Tuned [1]: Largest steps of the logarithm of a length, the penetration over itself, and an end
-    ! over the width of its patch. Origin: convergence from afar.
-    real(wp), parameter :: max_log_length_step = 0.5_wp, max_penetration_step = 0.3_wp, &
-                           max_end_step = 0.15_wp
+    ! Tuned [1]: Largest steps of the logarithm of a length and of the penetration over itself, and
+    ! of an end over the width of its patch. Origin: convergence from afar.
+    real(wp), parameter :: max_log_step = 0.5_wp, max_end_step = 0.15_wp
     ! Tuned [1]: most of its pressure that a step takes from a strip, ends free. Origin: convergence
     ! from afar.
     real(wp), parameter :: most_taken = 0.8_wp
-    ! Tuned [1]: with ends held, growth of the residual from which a step is taken back, and the
-    ! part of it that is tried; so often one after the other. Origin: chosen; steps led too far.
-    real(wp), parameter :: most_growth = 1.5_wp, part = 0.4_wp
-    ! Tuned [steps]: most taken back one after the other. Origin: chosen.
-    integer, parameter :: max_backs = 4
-    ! Tuned [1]: with ends held, a step below which strips may leave inside a patch. Origin: patches
-    ! split too soon.
-    real(wp), parameter :: splitting_step = 0.3_wp
-    ! Tuned [steps]: from here on they may whatever the step. Origin: as above.
-    integer, parameter :: sure_step = 10
 
     !> Where Newton's method stands.
     type :: course_t
         logical :: held = .false.      ! do the ends stay where they are?
         logical :: follows = .false.   ! do edges follow the gap?
         integer :: m = 0               ! equations
-        integer :: evaluations = 0, factored = 0, backs = 0 ! so far; steps taken back in a row
+        integer :: evaluations = 0, factored = 0 ! so far
         logical :: again = .false.     ! are coefficients to be evaluated anew?
         logical :: looked = .false.    ! were edges looked at near the solution?
         real(wp) :: moved = 0.0_wp     ! edges that belong elsewhere, strip widths
         logical :: fresh = .false., was_fresh = .false. ! are factors those of this step, the last
                                                         ! that was taken?
         real(wp) :: size_now = 0.0_wp, size_before = beyond_all ! largest component of the steps
-        real(wp) :: norm_before = beyond_all ! of residuals
         real(wp) :: scale = 1.0_wp     ! part of a step that is taken
         real(wp) :: p_scale = 1.0_wp   ! unit of the pressures' steps, MPa
     end type course_t
@@ -122,7 +107,7 @@ contains
         type(end_t) :: ends(2*max_patches)
         type(course_t) :: course
         integer :: n_ends, trial
-        logical :: possible, goes_back
+        logical :: possible
 
         call list_ends(workspace, patches, ends, n_ends)
         if (held) ends(:n_ends)%fixed = .true.
@@ -139,15 +124,11 @@ contains
             call linearise(workspace, compliance, demand, patches, ends(:n_ends), course, cost, &
                            possible)
             if (.not. possible) return
-            if (held) then
-                call go_back(workspace, course, goes_back)
-                if (goes_back) cycle
-            end if
             call find_step(workspace, course, possible)
             if (.not. possible) return
             ! What does not shrink any more is rounding.
             if (.not. workspace%newton%kept .and. course%size_now > tolerance) cycle
-            call take_step(workspace, ends(:n_ends), trial, course, patches, outcome)
+            call take_step(workspace, ends(:n_ends), course, patches, outcome)
             if (outcome /= converged) return
             if (course%scale < least_scale .and. .not. held) then
                 outcome = not_converged
@@ -223,27 +204,6 @@ contains
         call count_step(cost, course%m, course%fresh)
     end subroutine linearise
 
-    !> Where the residuals have grown the last step led too far: a part of it from where it began.
-    pure subroutine go_back(workspace, course, goes_back)
-        type(strip_workspace_t), intent(inout) :: workspace
-        type(course_t), intent(inout) :: course
-        logical, intent(out) :: goes_back
-
-        real(wp) :: norm
-
-        norm = norm2(workspace%newton%step(:course%m))
-        goes_back = norm > most_growth*course%norm_before .and. course%backs < max_backs
-        if (goes_back) then
-            course%backs = course%backs + 1
-            call take_part(workspace%newton, workspace%strips, part**course%backs)
-            workspace%newton%kept = .false.
-            course%size_before = beyond_all
-        else
-            course%backs = 0
-            course%norm_before = norm
-        end if
-    end subroutine go_back
-
     !> The step from the residuals. The factors are kept no longer if they are too old for it.
     pure subroutine find_step(workspace, course, possible)
         type(strip_workspace_t), intent(inout) :: workspace
@@ -289,7 +249,7 @@ contains
             if (.not. course%again) outcome = converged
             return
         end if
-        course%again = error > tolerance .and. left <= max(finest*tolerance, worth*change**2)
+        course%again = error > tolerance .and. left <= finest*max(tolerance, change**2)
         if (.not. course%follows .or. course%looked .or. course%again) return
         ! Near enough for coefficients to serve from here: do edges belong elsewhere?
         if (left > near*sqrt(tolerance/second_order)) return
@@ -311,10 +271,9 @@ contains
     end subroutine meet_load
 
     !> Move strips and ends by the step, or by a part of it where it is large.
-    pure subroutine take_step(workspace, ends, trial, course, patches, outcome)
+    pure subroutine take_step(workspace, ends, course, patches, outcome)
         type(strip_workspace_t), intent(inout) :: workspace
         type(end_t), intent(in) :: ends(:)
-        integer, intent(in) :: trial     ! number of the step
         type(course_t), intent(inout) :: course
         type(patches_t), intent(inout) :: patches
         integer, intent(out) :: outcome  ! `converged`: the patches are in order, no strip leaves
@@ -325,7 +284,6 @@ contains
         outcome = not_converged
         call limit_step(workspace, ends, patches, course)
         associate (step => workspace%newton%step, strips => workspace%strips, scale => course%scale)
-            if (course%held) call keep_step(strips, scale, course%p_scale, workspace%newton)
             strips%p0(:n) = strips%p0(:n) + scale*course%p_scale*step(:n)
             strips%half_length(:n) = strips%half_length(:n)*exp(scale*step(n + 1:2*n))
             strips%penetration = strips%penetration*(1.0_wp + scale*step(2*n + 1))
@@ -336,9 +294,6 @@ contains
             end if
             call mark_leaving_strips(strips%y_left(:n), strips%y_right(:n), strips%inv2r(:n), &
                                      strips%p0(:n), strips%half_length(:n), strips%leaves(:n))
-            ! Far from the solution only ends are sure to leave.
-            if (course%held .and. course%size_now > splitting_step .and. trial < sure_step) &
-                call keep_inner_strips(strips%y_left(:n), strips%y_right(:n), strips%leaves(:n))
             outcome = merge(strips_leave, converged, any(strips%leaves(:n)))
         end associate
     end subroutine take_step
@@ -359,12 +314,11 @@ contains
             scale = merge(damping, 1.0_wp, course%fresh .and. course%was_fresh &
                                            .and. course%size_now > slow*course%size_before)
             course%was_fresh = course%fresh
-            scale = min(scale, limit_of(step(n + 1:2*n), max_log_length_step), &
-                        limit_of(step(2*n + 1:2*n + 1), max_penetration_step))
+            scale = min(scale, limit_of(step(n + 1:2*n + 1), max_log_step))
             do e = 1, size(ends)
                 associate (patch => patches%at(ends(e)%patch))
                     move = abs(step(2*n + 1 + e))/(patch%y_to - patch%y_from) &
-                           *end_width(workspace, ends(e)%strip, ends(e)%stride)
+                           *end_width(workspace, ends(e)%strip)
                     scale = scale*min(1.0_wp, max_end_step/max(max_end_step, scale*move))
                 end associate
             end do
@@ -373,57 +327,6 @@ contains
             scale = min(scale, most_taken/max(most_taken, move))
         end associate
     end subroutine limit_step
-
-    !> Keep where a step begins, and the step.
-    pure subroutine keep_step(strips, scale, p_scale, newton)
-        type(pass_strips_t), intent(in) :: strips
-        real(wp), intent(in) :: scale, p_scale
-        type(newton_workspace_t), intent(inout) :: newton
-
-        associate (n => strips%n, from => newton%other(:, 1), by => newton%other(:, 2))
-            from(:n) = strips%p0(:n)
-            from(n + 1:2*n) = strips%half_length(:n)
-            from(2*n + 1) = strips%penetration
-            by(:n) = scale*p_scale*newton%step(:n)
-            by(n + 1:2*n + 1) = scale*newton%step(n + 1:2*n + 1)
-        end associate
-    end subroutine keep_step
-
-    !> A part of the step that was kept, from where it began.
-    pure subroutine take_part(newton, strips, part_of)
-        type(newton_workspace_t), intent(in) :: newton
-        type(pass_strips_t), intent(inout) :: strips
-        real(wp), intent(in) :: part_of
-
-        associate (n => strips%n, from => newton%other(:, 1), by => newton%other(:, 2))
-            strips%p0(:n) = from(:n) + part_of*by(:n)
-            strips%half_length(:n) = from(n + 1:2*n)*exp(part_of*by(n + 1:2*n))
-            strips%penetration = from(2*n + 1)*(1.0_wp + part_of*by(2*n + 1))
-        end associate
-    end subroutine take_part
-
-    !> Take back the marks of strips that no other marked ones join to an end of their patch.
-    pure subroutine keep_inner_strips(y_left, y_right, leaves)
-        real(wp), intent(in) :: y_left(:), y_right(:)
-        logical, intent(inout) :: leaves(:)
-
-        integer :: first, last, from, to
-
-        first = 1
-        do last = 1, size(leaves)
-            if (last < size(leaves)) then
-                if (y_right(last) >= y_left(last + 1)) cycle
-            end if
-            do from = first, last
-                if (.not. leaves(from)) exit
-            end do
-            do to = last, from, -1
-                if (.not. leaves(to)) exit
-            end do
-            leaves(from:to) = .false.
-            first = last + 1
-        end do
-    end subroutine keep_inner_strips
 
     !> The factor that keeps steps within a limit.
     pure real(wp) function limit_of(step, largest)

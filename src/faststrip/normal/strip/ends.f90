@@ -12,7 +12,7 @@ module faststrip_normal_strip_ends
     implicit none
     private
 
-    public :: move_ends, part_ends, close_overlaps, overlap_left, end_step, end_width, end_stride
+    public :: move_ends, close_overlaps, overlap_left, end_step, end_width
 
     !> How far an end may be extrapolated, inwards and outwards.
     !> Tuned [strip widths]. Origin: safeguard: an end moves no farther in a pass.
@@ -20,9 +20,6 @@ module faststrip_normal_strip_ends
 
     ! Tuned [points]. Origin: capacity.
     integer, parameter :: max_scan = 64      ! points scanned in one stretch outside the patches
-    ! Tuned [steps]: by which an edge of an overlap is sought. Origin: chosen: a few percent of the
-    ! scan's spacing.
-    integer, parameter :: halvings = 5
     ! Tuned [passes]. Origin: chosen against ends that swing.
     integer, parameter :: damped_pass = 12   ! from this pass on the ends move by damping only
     ! Tuned [1]: Part of a step that an end is moved from then on. Origin: chosen against ends that
@@ -32,12 +29,9 @@ module faststrip_normal_strip_ends
     real(wp), parameter :: forget = 0.05_wp  ! how fast "too far" is forgotten, strip widths
     ! Tuned [1]. Origin: a round contact between plane strain and a needle.
     real(wp), parameter :: plane_strain_share = 0.6_wp ! pressure of a new patch over a long one's
-    ! Tuned [strips]. Origin: chosen for the patch ends of many strips.
-    integer, parameter :: fine_patch = 24    ! from so many strips on an end is extrapolated from
     ! Tuned [doublings]: most of the step that an end may take towards "too far". Origin: safeguard:
     ! powers of two cannot overflow.
     integer, parameter :: most_pushes = 20
-                                             ! strips further apart
 
 contains
 
@@ -49,7 +43,7 @@ contains
         real(wp), intent(out) :: move !! largest move, in units of `end_width`
 
         real(wp) :: factor, step, width, y_low, y_high
-        integer :: p, first, last, stride
+        integer :: p, first, last
         logical :: shares
 
         factor = 1.0_wp
@@ -63,10 +57,9 @@ contains
             first = last + 1
             last = last + patches%at(p)%n_strips
             associate (patch => patches%at(p))
-                stride = end_stride(patch%n_strips)
                 if (.not. shares) then
-                    width = end_width(workspace, first, stride)
-                    step = factor*end_step(workspace, first, 1, stride)*width
+                    width = end_width(workspace, first)
+                    step = factor*end_step(workspace, first, 1)*width
                     step = min(step, patch%y_from - y_low)
                     call hold_back(width, patch%y_from - patch%too_far_from, patch%pushes_from, &
                                    step)
@@ -78,8 +71,8 @@ contains
                     call move_shared_end(workspace, factor, last, patch, patches%at(p + 1), move)
                     cycle
                 end if
-                width = end_width(workspace, last, stride)
-                step = factor*end_step(workspace, last, -1, stride)*width
+                width = end_width(workspace, last)
+                step = factor*end_step(workspace, last, -1)*width
                 step = min(step, y_high - patch%y_to)
                 call hold_back(width, patch%too_far_to - patch%y_to, patch%pushes_to, step)
                 patch%y_to = patch%y_to + step
@@ -100,9 +93,10 @@ contains
 
         real(wp) :: to, from, width_to, width_from
 
-        call shared_steps(workspace, patch, next, last, to, from, width_to, width_from)
-        to = factor*to
-        from = factor*from
+        width_to = end_width(workspace, last)
+        width_from = end_width(workspace, last + 1)
+        to = factor*end_step(workspace, last, -1)*width_to
+        from = factor*end_step(workspace, last + 1, 1)*width_from
         if (to + from >= 0.0_wp) then
             to = 0.5_wp*(to - from)
             from = -to
@@ -115,48 +109,6 @@ contains
             move = max(move, abs(to)/width_to, abs(from)/width_from)
         end if
     end subroutine move_shared_end
-
-    !> Part patches that share an end from which both together want to draw back.
-    pure subroutine part_ends(workspace, tolerance, patches, parted)
-        type(strip_workspace_t), intent(in) :: workspace !! with their strips
-        real(wp), intent(in) :: tolerance                !! not by less than this, strip widths
-        type(patches_t), intent(inout) :: patches        !! the ends of those parted are moved
-        logical, intent(out) :: parted                   !! any
-
-        real(wp) :: to, from, width_to, width_from
-        integer :: p, last
-
-        parted = .false.
-        last = 0
-        do p = 1, patches%n - 1
-            last = last + patches%at(p)%n_strips
-            if (.not. patches%at(p)%meets_next) cycle
-            call shared_steps(workspace, patches%at(p), patches%at(p + 1), last, to, from, &
-                              width_to, width_from)
-            if (to + from >= -tolerance*min(width_to, width_from)) cycle
-            patches%at(p)%y_to = patches%at(p)%y_to + to
-            patches%at(p + 1)%y_from = patches%at(p + 1)%y_from - from
-            patches%at(p)%meets_next = .false.
-            parted = .true.
-        end do
-    end subroutine part_ends
-
-    !> How far both sides of a shared end want to go on, and widths there, mm.
-    pure subroutine shared_steps(workspace, patch, next, last, to, from, width_to, width_from)
-        type(strip_workspace_t), intent(in) :: workspace
-        type(patch_t), intent(in) :: patch, next ! side by side
-        integer, intent(in) :: last              ! strip of the left one
-        real(wp), intent(out) :: to, from, width_to, width_from
-
-        integer :: stride
-
-        stride = end_stride(patch%n_strips)
-        width_to = end_width(workspace, last, stride)
-        to = end_step(workspace, last, -1, stride)*width_to
-        stride = end_stride(next%n_strips)
-        width_from = end_width(workspace, last + 1, stride)
-        from = end_step(workspace, last + 1, 1, stride)*width_from
-    end subroutine shared_steps
 
     !> Keep an end from a place that was too far out, half-way at most. The more often it pushes on,
     !> the less the place counts: everything else may have moved since.
@@ -174,35 +126,26 @@ contains
         pushes = min(pushes + 1, most_pushes)
     end subroutine hold_back
 
-    !> How many strips apart the three strips are from which an end is extrapolated.
-    pure integer function end_stride(n_strips)
-        integer, intent(in) :: n_strips !! of the patch
-
-        end_stride = max(1, n_strips/fine_patch)
-    end function end_stride
-
-    !> The measure of an end's moves, mm: the width of the end strip, of several in a fine patch.
-    pure real(wp) function end_width(workspace, k, stride) result(width)
+    !> The measure of an end's moves, mm: the width of the end strip.
+    pure real(wp) function end_width(workspace, k) result(width)
         type(strip_workspace_t), intent(in) :: workspace
-        integer, intent(in) :: k      !! the end strip
-        integer, intent(in) :: stride !! of `end_stride`
+        integer, intent(in) :: k !! the end strip
 
-        width = stride*(workspace%strips%y_right(k) - workspace%strips%y_left(k))
+        width = workspace%strips%y_right(k) - workspace%strips%y_left(k)
     end function end_width
 
     !> How far an end should move outwards, in units of `end_width`, between -1 and 2.
-    pure real(wp) function end_step(workspace, k, inward, stride) result(step)
+    pure real(wp) function end_step(workspace, k, inward) result(step)
         type(strip_workspace_t), intent(in) :: workspace
         integer, intent(in) :: k      !! the end strip
         integer, intent(in) :: inward !! 1 at a left end, -1 at a right end
-        integer, intent(in) :: stride !! strips from one of the three strips to the next
 
         real(wp) :: y(3), q(3), width, d2, d3, slope, bend, b, discriminant, s
         integer :: j
 
-        width = end_width(workspace, k, stride)
+        width = end_width(workspace, k)
         do j = 1, 3
-            associate (i => k + (j - 1)*stride*inward)
+            associate (i => k + (j - 1)*inward)
                 y(j) = 0.5_wp*(workspace%strips%y_left(i) + workspace%strips%y_right(i))/width
                 q(j) = (workspace%strips%half_length(i)/workspace%strips%half_length(k))**2 &
                        *(workspace%strips%inv2r(i)/workspace%strips%inv2r(k))
@@ -215,7 +158,7 @@ contains
         bend = (slope - (q(2) - q(3))/(d3 - d2))/d3
         b = slope + bend*d2
         discriminant = b*b - 4.0_wp*bend
-        s = 0.5_wp/stride + farthest_out
+        s = 0.5_wp + farthest_out
         if (discriminant >= 0.0_wp .and. b < 0.0_wp) then
             s = 2.0_wp/(sqrt(discriminant) - b)
         else if (bend < 0.0_wp) then
@@ -225,7 +168,7 @@ contains
             ! rules agree where the quadratic has a double root.
             s = d2/(sqrt(q(2)) - 1.0_wp)
         end if
-        step = max(farthest_in, min(farthest_out, s - 0.5_wp/stride))
+        step = max(farthest_in, min(farthest_out, s - 0.5_wp))
     end function end_step
 
     !> Find places outside the patches where the deformed surfaces would overlap, and patches that
@@ -270,7 +213,7 @@ contains
         type(patches_t), intent(inout) :: patches
         logical, intent(inout) :: changed
 
-        real(wp) :: y, dy, depth, deepest, h, inv2r
+        real(wp) :: dy, depth, deepest, h, inv2r
         integer :: j, m, from
         type(patch_t) :: seed
 
@@ -287,15 +230,6 @@ contains
                 deepest = max(deepest, depth)
             else if (from > 0) then
                 seed = patch_t(low + (from - 1)*dy, low + (j - 1)*dy, fewest_strips)
-                ! One that reaches no end of the stretch may become a patch: where is it?
-                if (from > 1 .and. j <= m) then
-                    y = low + (from - 0.5_wp)*dy
-                    call find_edge(workspace, compliance, penetration, y, y - dy, deepest, &
-                                   seed%y_from)
-                    y = low + (j - 0.5_wp)*dy
-                    call find_edge(workspace, compliance, penetration, y - dy, y, deepest, &
-                                   seed%y_to)
-                end if
                 call gap_at(workspace%curve, 0.5_wp*(seed%y_from + seed%y_to), h, inv2r)
                 inv2r = max(inv2r, flattest)
                 seed%seed_length = sqrt(deepest/inv2r)
@@ -307,31 +241,6 @@ contains
             end if
         end do
     end subroutine scan
-
-    !> Halve the way between a place that overlaps and one that does not.
-    pure subroutine find_edge(workspace, compliance, penetration, inside, outside, deepest, edge)
-        type(strip_workspace_t), intent(in) :: workspace
-        real(wp), intent(in) :: compliance, penetration, inside, outside
-        real(wp), intent(inout) :: deepest ! overlap found
-        real(wp), intent(inout) :: edge    ! of the overlap
-
-        real(wp) :: overlaps, clear, depth
-        integer :: i
-
-        overlaps = inside
-        clear = outside
-        do i = 1, halvings
-            edge = 0.5_wp*(overlaps + clear)
-            depth = depth_at(workspace, compliance, penetration, edge)
-            deepest = max(deepest, depth)
-            if (depth > overlap_tolerance*penetration) then
-                overlaps = edge
-            else
-                clear = edge
-            end if
-        end do
-        edge = 0.5_wp*(overlaps + clear)
-    end subroutine find_edge
 
     !> Overlap of the surfaces that the strips of the last pass deform, mm.
     pure real(wp) function depth_at(workspace, compliance, penetration, y) result(depth)

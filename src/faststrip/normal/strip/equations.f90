@@ -14,7 +14,7 @@
 module faststrip_normal_strip_equations
     use faststrip_base_kinds, only: wp, pi
     use faststrip_normal_strip_figures, only: correction_of
-    use faststrip_normal_strip_pass, only: pass_strips_t
+    use faststrip_normal_strip_patches, only: pass_strips_t
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private

@@ -2,8 +2,7 @@
 module faststrip_normal_strip_figures
     use faststrip_base_kinds, only: wp
     use faststrip_normal_patch_curves, only: curve_integral, curve_peak
-    use faststrip_normal_strip_pass, only: pass_strips_t
-    use faststrip_normal_strip_patches, only: patches_t
+    use faststrip_normal_strip_patches, only: patches_t, pass_strips_t
     use faststrip_normal_strips, only: contact_strips_t, strips_load
     use faststrip_normal_types, only: normal_result_t
     implicit none

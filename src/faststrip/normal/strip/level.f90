@@ -3,20 +3,19 @@
 !> Together (`faststrip_normal_strip_converge`) is the usual way. What then overlaps beside the
 !> patches joins them, and what has met merges, until nothing changes. In turn, strips are solved
 !> for between ends that are held, then the ends move; strips that leave are cut off and split their
-!> patch. From near enough strips and ends are tried together again. A pass whose ends move little
-!> more may stand.
+!> patch. After the first passes strips and ends are tried together again. A pass whose ends move
+!> little more may stand.
 module faststrip_normal_strip_level
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t, usual_strips, usual_strip_tolerance
     use faststrip_normal_strip_converge, only: converge, converged, strips_leave
-    use faststrip_normal_strip_ends, only: move_ends, part_ends, close_overlaps
+    use faststrip_normal_strip_ends, only: move_ends, close_overlaps
     use faststrip_normal_strip_equations, only: cost_work, step_work
     use faststrip_normal_strip_figures, only: hand_over, summarize, correction_of
     use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
                                               free_ends, drop_slivers
-    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, &
-                                            position_strips, remember, forget_edges, &
-                                            look_for_edges, take_edges, know_edges
+    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, position_strips, &
+                                            remember, forget_edges, forget_factors
     use faststrip_normal_types, only: normal_result_t, demand_t, cost_t
     implicit none
     private
@@ -33,8 +32,6 @@ module faststrip_normal_strip_level
     ! Tuned [passes]: after so many none of which was better the best stands, if it may. Origin:
     ! chosen for the time: ends that come and go do so without rest.
     integer, parameter :: max_idle_passes = 4
-    ! Tuned [splits]. Origin: chosen against cycles of splitting and merging.
-    integer, parameter :: max_splits = 3     ! after so many splits patches are not merged again
     ! Tuned [splits]. Origin: chosen; what splits more often ends in the lattice.
     integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     ! Work of all ways together: so much, and so many steps of all strips.
@@ -43,20 +40,12 @@ module faststrip_normal_strip_level
     real(wp), parameter :: work_to_begin = 2.0e5_wp, most_steps = 100.0_wp
     ! Tuned [strip widths]. Origin: errors of the area well below those of 15 strips.
     real(wp), parameter :: end_tolerance = 0.03_wp ! in widths of the end strip
-    ! Tuned [strip widths]: the ends' next move. Origin: strips and ends converge together from
-    ! there.
-    real(wp), parameter :: coupling_move = 1.0_wp
     ! Tuned [strip widths]. Origin: ten times end_tolerance.
     real(wp), parameter :: loose_end_tolerance = 0.3_wp ! the same, for the best pass to stand
     ! Tolerance while the ends still move by more than the loose tolerance, and by more than the
     ! other: what is left then is far below what the ends' moves change.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: far_tolerance = 0.1_wp, near_tolerance = 1.0e-2_wp
-    ! Tuned [1]: of the way of edges to where they belong, where all of it is too far. Origin:
-    ! chosen.
-    real(wp), parameter :: first_part = 0.25_wp
-    ! Tuned [tries]: at letting edges follow the gap. Origin: chosen: all at once, then three parts.
-    integer, parameter :: most_parts = 4
     ! Tuned [1]. Origin: safeguard: above rounding.
     real(wp), parameter :: sliver = 1.0e-10_wp ! of the gap's range: too narrow for a patch
 
@@ -91,26 +80,18 @@ contains
         type(normal_result_t), intent(inout) :: result  !! of the solution; costs are added
 
         type(attempt_t) :: start
-        integer :: coupling, edges
-        logical :: done
-
         call begin(level, attempt)
         start = attempt
         workspace%graded = .true.
+        call couple(workspace, compliance, demand, level, attempt, strips, result)
+        if (attempt%converged) return
         ! From far off edges that follow the ends alone succeed more often.
-        do edges = 1, 2
-            do coupling = 1, max_couplings
-                call couple(workspace, compliance, demand, level, attempt, strips, result, done)
-                if (done) exit
-            end do
-            if (attempt%converged) exit
-            attempt = start
-            call forget_edges(workspace, .false.)
-            workspace%linear%known = .false.
-            workspace%newton%kept = .false.
-        end do
-        if (workspace%graded .or. .not. attempt%converged) return
-        call let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
+        attempt = start
+        call forget_edges(workspace, .false.)
+        call forget_factors(workspace)
+        call couple(workspace, compliance, demand, level, attempt, strips, result)
+        if (attempt%converged) &
+            call let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
     end subroutine solve_together
 
     !> Strips between ends that are held, and the ends, in turn.
@@ -128,7 +109,7 @@ contains
         type(patches_t) :: solved
         real(wp) :: tolerance, moved, best_move
         integer :: pass, best_pass, couplings, outcome
-        logical :: at_rest, possible, changed, done
+        logical :: at_rest, possible, changed
 
         call begin(level, attempt)
         ! Ends that are moved in turn come and go with edges that follow the gap.
@@ -173,9 +154,9 @@ contains
             end if
             at_rest = moved < end_tolerance
             tolerance = next_tolerance(level%tolerance, pass, moved)
-            if (.not. moved < coupling_move .or. couplings == max_couplings) cycle
+            if (couplings == max_couplings) cycle
             couplings = couplings + 1
-            call couple(workspace, compliance, demand, level, attempt, strips, result, done)
+            call couple_once(workspace, compliance, demand, level, attempt, strips, result, changed)
             if (.not. attempt%converged) cycle
             best_move = 0.0_wp
             best = attempt
@@ -187,7 +168,6 @@ contains
         ! Passes after the best have left other patches.
         attempt = best
         attempt%converged = .true.
-        if (best_move > 0.0_wp) call take_back(workspace, strips, attempt)
         call let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
     end subroutine solve_in_turn
 
@@ -204,8 +184,8 @@ contains
         next_tolerance = max(next_tolerance, tolerance)
     end function next_tolerance
 
-    !> A solution whose edges follow the ends alone: let them follow the gap, at once or part by
-    !> part. Where that does not succeed the last solution stays.
+    !> A solution whose edges follow the ends alone: let them follow the gap. Where that does not
+    !> succeed the solution stays.
     subroutine let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
@@ -215,49 +195,26 @@ contains
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
 
-        type(attempt_t) :: last
-        real(wp) :: share, moved
-        integer :: i
-        logical :: done
+        type(attempt_t) :: solved
 
         ! More strips will follow it anyway.
         if (level%strips_per_patch < level%most_strips) return
-        share = 1.0_wp
-        do i = 1, most_parts
-            last = attempt
-            call look_for_edges(workspace, attempt%patches, moved)
-            call take_edges(workspace, share)
-            call couple(workspace, compliance, demand, level, attempt, strips, result, done)
-            if (attempt%converged) then
-                if (workspace%graded) return
-                share = min(1.0_wp, 2.0_wp*share)
-            else
-                attempt = last
-                call take_back(workspace, strips, attempt)
-                share = first_part*share
-            end if
-        end do
-    end subroutine let_edges_follow
-
-    !> The workspace as a solution that was handed over has left it.
-    pure subroutine take_back(workspace, strips, attempt)
-        type(strip_workspace_t), intent(inout) :: workspace
-        type(contact_strips_t), intent(in) :: strips
-        type(attempt_t), intent(inout) :: attempt
-
-        integer :: n
-
-        n = strips%n
-        call know_edges(workspace, attempt%patches, strips%y_right(:n))
-        workspace%strips%n = n
-        workspace%strips%penetration = attempt%penetration
-        workspace%strips%p0(:n) = strips%p0(:n)
-        workspace%strips%half_length(:n) = strips%half_length(:n)
+        solved = attempt
+        workspace%graded = .true.
+        call couple(workspace, compliance, demand, level, attempt, strips, result)
+        if (attempt%converged) return
+        ! The next warm start is from what was handed over.
+        attempt = solved
+        call forget_edges(workspace, .false.)
+        call forget_factors(workspace)
+        associate (now => workspace%strips, n => strips%n)
+            now%n = n
+            now%p0(:n) = strips%p0(:n)
+            now%half_length(:n) = strips%half_length(:n)
+        end associate
         call position_edges(workspace, attempt%patches)
         call remember(workspace, attempt%patches)
-        workspace%linear%known = .false.
-        workspace%newton%kept = .false.
-    end subroutine take_back
+    end subroutine let_edges_follow
 
     !> A neighbour of the last solution, for derivatives: the same patches, strips and edges, solved
     !> to the last digits. So it differs smoothly from it: nothing is looked for, and no edge
@@ -345,9 +302,8 @@ contains
         workspace%strips%penetration = attempt%penetration
     end subroutine position
 
-    !> Solve for strips and ends together, and let overlaps join. It is done where nothing changes
-    !> any more, or where there is no solution; then the patches are as before.
-    subroutine couple(workspace, compliance, demand, level, attempt, strips, result, done)
+    !> Solve for strips and ends together, until no overlap joins any more.
+    subroutine couple(workspace, compliance, demand, level, attempt, strips, result)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
@@ -355,39 +311,56 @@ contains
         type(attempt_t), intent(inout) :: attempt
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
-        logical, intent(out) :: done
+
+        integer :: coupling
+        logical :: changed
+
+        do coupling = 1, max_couplings
+            call couple_once(workspace, compliance, demand, level, attempt, strips, result, changed)
+            if (.not. changed) exit
+        end do
+    end subroutine couple
+
+    !> Solve for strips and ends together, and let overlaps join. Where there is no solution the
+    !> patches are as before.
+    subroutine couple_once(workspace, compliance, demand, level, attempt, strips, result, changed)
+        type(strip_workspace_t), intent(inout) :: workspace
+        real(wp), intent(in) :: compliance
+        type(demand_t), intent(in) :: demand
+        type(level_t), intent(in) :: level
+        type(attempt_t), intent(inout) :: attempt
+        type(contact_strips_t), intent(inout) :: strips
+        type(normal_result_t), intent(inout) :: result
+        logical, intent(out) :: changed ! are there other patches now, to be solved for?
 
         type(patches_t) :: solved
         integer :: outcome
-        logical :: possible, changed
+        logical :: possible
 
         attempt%converged = .false.
+        changed = .false.
         call position(workspace, level, size(strips%p0), result%cost, attempt, possible)
-        done = .not. possible
-        if (done) return
+        if (.not. possible) return
         solved = attempt%patches
         call converge(workspace, compliance, demand, level%tolerance, .false., solved, &
                       result%cost, outcome)
         result%passes = result%passes + 1
-        done = outcome /= converged
-        if (done) return
+        if (outcome /= converged) return
         attempt%patches = solved
         attempt%penetration = workspace%strips%penetration
         call remember(workspace, attempt%patches)
-        call part_ends(workspace, loose_end_tolerance, attempt%patches, changed)
-        if (changed) return
         call join_overlaps(workspace, compliance, level, attempt, changed)
         if (changed) return
         if (.not. level%near) then
             ! From afar patches were shared by what their widths seemed to be.
             solved = attempt%patches
             call share_strips(level%strips_per_patch, attempt%patches)
-            if (any(solved%at%n_strips /= attempt%patches%at%n_strips)) return
+            changed = any(solved%at%n_strips /= attempt%patches%at%n_strips)
+            if (changed) return
         end if
         call keep(workspace, attempt, strips, result)
         attempt%converged = .true.
-        done = .true.
-    end subroutine couple
+    end subroutine couple_once
 
     !> Strips leave: cut them off and share the others anew.
     pure subroutine cut(workspace, level, attempt, possible)
@@ -413,8 +386,7 @@ contains
         logical, intent(out) :: changed
 
         call close_overlaps(workspace, compliance, attempt%penetration, &
-                            .not. attempt%in_doubt .and. attempt%splits < max_splits, &
-                            attempt%patches, changed)
+                            .not. attempt%in_doubt, attempt%patches, changed)
         if (changed) call share_strips(level%strips_per_patch, attempt%patches)
     end subroutine join_overlaps
 

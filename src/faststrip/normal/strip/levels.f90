@@ -18,7 +18,7 @@ module faststrip_normal_strip_levels
     use faststrip_normal_strip_level, only: level_t, attempt_t, solve_together, &
                                             solve_in_turn
     use faststrip_normal_strip_start, only: start_patches, resume_patches
-    use faststrip_normal_strip_state, only: strip_workspace_t, forget_edges
+    use faststrip_normal_strip_state, only: strip_workspace_t, forget_edges, forget_factors
     use faststrip_normal_types, only: normal_result_t, demand_t
     implicit none
     private
@@ -153,8 +153,7 @@ contains
         call start_patches(workspace%curve, compliance, demand, attempt%patches, &
                            attempt%penetration)
         workspace%old%n = 0
-        workspace%linear%known = .false.
-        workspace%newton%kept = .false.
+        call forget_factors(workspace)
         call forget_edges(workspace, .true.)
         attempt%in_doubt = way == from_row .or. way == row_in_turn
         if (attempt%in_doubt) call find_patches(workspace, compliance, demand, attempt%patches, &

@@ -19,8 +19,7 @@ module faststrip_normal_strip_linearised
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
     use faststrip_normal_strip_equations, only: start_residual, start_jacobian, &
                                                 add_column, end_jacobian
-    use faststrip_normal_strip_pass, only: pass_strips_t
-    use faststrip_normal_strip_patches, only: patches_t, max_patches
+    use faststrip_normal_strip_patches, only: patches_t, max_patches, pass_strips_t
     use faststrip_normal_types, only: demand_t
     implicit none
     private

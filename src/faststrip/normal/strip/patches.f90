@@ -1,5 +1,5 @@
-!> The patches of a strip solution while their ends are being sought: how many strips each gets,
-!> and how patches appear, meet, are cut and split.
+!> The patches of a strip solution while their ends are being sought, and the strips of one pass:
+!> how many strips each patch gets, and how patches appear, meet, are cut and split.
 module faststrip_normal_strip_patches
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: beyond_all
@@ -7,6 +7,7 @@ module faststrip_normal_strip_patches
     private
 
     public :: patch_t, patches_t, max_patches, fewest_strips, fewest_strips_small_patch
+    public :: pass_strips_t, reserve_pass_strips
     public :: share_strips, only_match, nearest_patch, take_in, sort_patches, join_met_patches
     public :: cut_leaving_strips, free_ends, drop_slivers, mirror_patches
 
@@ -46,7 +47,38 @@ module faststrip_normal_strip_patches
         type(patch_t) :: at(max_patches)
     end type patches_t
 
+    !> Strips with given edges and their unknowns; the first `n` entries count. Owned by the caller.
+    type :: pass_strips_t
+        integer :: n = 0
+        real(wp) :: penetration = 0.0_wp       !! D above the lowest height, mm
+        real(wp), allocatable :: y_left(:)     !! left edges, mm
+        real(wp), allocatable :: y_right(:)    !! right edges, mm
+        real(wp), allocatable :: height(:)     !! h on the centre lines, above the lowest, mm
+        real(wp), allocatable :: inv2r(:)      !! A on the centre lines, positive, 1/mm
+        real(wp), allocatable :: p0(:)         !! pressures on the centre lines, MPa
+        real(wp), allocatable :: half_length(:) !! xd, mm
+        logical, allocatable :: leaves(:)      !! strips to be cut off
+        ! Work of the equations.
+        real(wp), allocatable :: y(:)          !! centre lines
+    end type pass_strips_t
+
 contains
+
+    !> Allocate for up to `capacity` strips; the only allocation.
+    subroutine reserve_pass_strips(strips, capacity)
+        type(pass_strips_t), intent(inout) :: strips !! sized
+        integer, intent(in) :: capacity              !! >= 1
+
+        if (allocated(strips%p0)) then
+            if (size(strips%p0) >= capacity) return
+            deallocate (strips%y_left, strips%y_right, strips%height, strips%inv2r, strips%p0, &
+                        strips%half_length, strips%leaves, strips%y)
+        end if
+        allocate (strips%y_left(capacity), strips%y_right(capacity), strips%height(capacity), &
+                  strips%inv2r(capacity), strips%p0(capacity), strips%half_length(capacity), &
+                  strips%y(capacity), source=0.0_wp)
+        allocate (strips%leaves(capacity), source=.false.)
+    end subroutine reserve_pass_strips
 
     !> Number of strips of each patch, in proportion to its width.
     pure subroutine share_strips(strips_per_patch, patches)

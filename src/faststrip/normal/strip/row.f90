@@ -42,9 +42,6 @@ module faststrip_normal_strip_row
     real(wp), parameter :: above = 1.1_wp
     ! Tuned [cells]: how far an end is extrapolated from the edge of its cell. Origin: chosen.
     real(wp), parameter :: farthest_in = 0.2_wp, farthest_out = 0.5_wp
-    ! Tuned [cells]: two ends so far apart, by the loads of the cells beside them, are those of two
-    ! patches. Origin: chosen for the steps; from .3 to 1 steps change by 2 %.
-    real(wp), parameter :: least_apart = 0.8_wp
 
     !> A row of cells; the first `n` count.
     type :: row_t
@@ -336,37 +333,18 @@ contains
     end function pressure_ratio
 
     !> The next cells side by side that press.
-    pure subroutine next_run(row, first, last, by_patch)
+    pure subroutine next_run(row, first, last)
         type(row_t), intent(in) :: row
         integer, intent(out) :: first   !! of the run, n + 1 if there is none
         integer, intent(inout) :: last  !! of the run before, 0 to begin with; of this one
-        logical, intent(in), optional :: by_patch !! do cells of two patches part, too?
 
         do first = last + 1, row%n
             if (row%presses(first)) exit
         end do
         do last = first, row%n - 1
             if (.not. row%presses(last + 1) .or. row%left(last + 1) > row%right(last)) exit
-            if (.not. present(by_patch)) cycle
-            if (by_patch .and. runs_out(row, last)) exit
         end do
     end subroutine next_run
-
-    !> Do the loads of the cells run out between a cell and the next, from both sides?
-    pure logical function runs_out(row, cell)
-        type(row_t), intent(in) :: row
-        integer, intent(in) :: cell
-
-        real(wp) :: load(4)
-
-        runs_out = .false.
-        if (cell < 2 .or. cell + 2 > row%n) return
-        if (.not. all(row%presses(cell - 1:cell + 2))) return
-        load = row%p0(cell - 1:cell + 2)*row%half_length(cell - 1:cell + 2)
-        if (load(1) <= load(2) .or. load(4) <= load(3)) return
-        ! Ends as in end_move, from the edge between both: load(2)/(load(1) - load(2)) - 1/2 cells.
-        runs_out = load(2)/(load(1) - load(2)) + load(3)/(load(4) - load(3)) < 1.0_wp - least_apart
-    end function runs_out
 
     !> The places of the next row: the runs of this one, and a cell on either side.
     pure subroutine narrow_places(row, n, from, to)
@@ -417,7 +395,7 @@ contains
         last = 0
         associate (strips => workspace%strips)
             do
-                call next_run(row, first, last, .true.)
+                call next_run(row, first, last)
                 if (first > row%n) exit
                 parts = (fewest_strips + last - first)/(last - first + 1)
                 possible = n + parts*(last - first + 1) <= workspace%max_strips &

@@ -8,16 +8,15 @@ module faststrip_normal_strip_state
     use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice
     use faststrip_normal_strip_linearised, only: linearised_t, reserve_linearised
     use faststrip_normal_strip_grading, only: grade, grade_plainly
-    use faststrip_normal_strip_newton, only: newton_workspace_t, reserve_newton
-    use faststrip_normal_strip_pass, only: pass_strips_t, reserve_pass_strips
     use faststrip_normal_strip_patches, only: patches_t, max_patches, fewest_strips, only_match, &
-                                              nearest_patch, mirror_patches
+                                              nearest_patch, mirror_patches, pass_strips_t, &
+                                              reserve_pass_strips
     implicit none
     private
 
     public :: strip_workspace_t, reserve_strip_workspace, set_strip_gap
     public :: position_edges, position_strips, remember, mirror_old, flattest
-    public :: forget_edges, look_for_edges, renew_edges, take_edges, know_edges
+    public :: newton_workspace_t, forget_edges, forget_factors, look_for_edges, renew_edges
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
     !> Tuned [1/mm]. Origin: safeguard.
@@ -25,6 +24,19 @@ module faststrip_normal_strip_state
     ! Tuned [half-widths]: place in an old patch from which a strip beside it is started. Origin:
     ! chosen: pressures vanish at 1.
     real(wp), parameter :: outermost = 0.95_wp
+
+    !> The linear system of 2n + 1 equations and those of the ends.
+    type :: newton_workspace_t
+        ! Whether `jacobian` holds factors that may serve again, and what kind of system they are
+        ! of.
+        logical :: kept = .false.
+        logical :: by_load = .true., fixed(2*max_patches) = .false.
+        integer :: n_patches = 0, n_strips(max_patches) = 0
+        real(wp), allocatable :: jacobian(:, :)
+        real(wp), allocatable :: step(:)
+        real(wp), allocatable :: other(:, :) !! (2) other vectors
+        integer, allocatable :: pivot(:)
+    end type newton_workspace_t
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread.
     type :: strip_workspace_t
@@ -86,6 +98,24 @@ contains
         workspace%n_graded = 0
         workspace%max_strips = max_strips
     end subroutine reserve_strip_workspace
+
+    !> Allocate for systems of up to `max_strips` strips. Where there is room, what is kept stays.
+    subroutine reserve_newton(workspace, max_strips)
+        type(newton_workspace_t), intent(inout) :: workspace !! sized
+        integer, intent(in) :: max_strips                    !! >= 1
+
+        integer :: n
+
+        n = 2*max_strips + 1 + 2*max_patches
+        if (allocated(workspace%pivot)) then
+            if (size(workspace%pivot) >= n) return
+            workspace%kept = .false.
+            deallocate (workspace%jacobian, workspace%step, workspace%other, workspace%pivot)
+        end if
+        allocate (workspace%jacobian(n, n), workspace%step(n), workspace%other(n, 2), &
+                  source=0.0_wp)
+        allocate (workspace%pivot(n), source=0)
+    end subroutine reserve_newton
 
     !> Hand over the gap that the next solutions are for.
     subroutine set_strip_gap(workspace, gap, status)
@@ -210,6 +240,14 @@ contains
         workspace%n_graded = 0
     end subroutine forget_edges
 
+    !> Forget coefficients and factors: the next strips have none of the last ones.
+    pure subroutine forget_factors(workspace)
+        type(strip_workspace_t), intent(inout) :: workspace !! as before otherwise
+
+        workspace%linear%known = .false.
+        workspace%newton%kept = .false.
+    end subroutine forget_factors
+
     !> Where the edges of patches belong that have moved, and how far that is from where they are.
     pure subroutine look_for_edges(workspace, patches, change)
         type(strip_workspace_t), intent(inout) :: workspace !! with strips in these patches
@@ -235,39 +273,6 @@ contains
             last = last + n
         end do
     end subroutine look_for_edges
-
-    !> Edges go so far to where `look_for_edges` found that they belong; the next strips have them.
-    pure subroutine take_edges(workspace, share)
-        type(strip_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: share !! of the way; with all of it they follow the gap from now on
-
-        integer :: n
-
-        n = workspace%strips%n
-        workspace%graded = share >= 1.0_wp
-        workspace%edge(:n) = workspace%edge(:n) &
-                             + share*(workspace%new_edge(:n) - workspace%edge(:n))
-    end subroutine take_edges
-
-    !> Edges are those of these strips, and follow the ends alone.
-    pure subroutine know_edges(workspace, patches, y_right)
-        type(strip_workspace_t), intent(inout) :: workspace
-        type(patches_t), intent(in) :: patches !! of the strips
-        real(wp), intent(in) :: y_right(:)     !! right edges of all strips, mm
-
-        integer :: p, first, last
-
-        workspace%graded = .false.
-        last = 0
-        do p = 1, patches%n
-            first = last + 1
-            last = last + patches%at(p)%n_strips
-            associate (from => patches%at(p)%y_from, to => patches%at(p)%y_to)
-                workspace%n_graded(p) = patches%at(p)%n_strips
-                workspace%edge(first:last) = (2.0_wp*y_right(first:last) - (from + to))/(to - from)
-            end associate
-        end do
-    end subroutine know_edges
 
     !> Cut patches into strips where `look_for_edges` found that they belong; pressures and lengths
     !> are taken over.
@@ -353,8 +358,7 @@ contains
         call reverse(workspace%old_p0(:n))
         call reverse(workspace%old_half_length(:n))
         call mirror_patches(workspace%old)
-        workspace%newton%kept = .false.
-        workspace%linear%known = .false.
+        call forget_factors(workspace)
         call forget_edges(workspace, .true.)
     end subroutine mirror_old
 

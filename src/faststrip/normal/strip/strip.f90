@@ -34,7 +34,7 @@ module faststrip_normal_strip
                                              solve_by_levels
     use faststrip_normal_strip_patches, only: fewest_strips
     use faststrip_normal_strip_state, only: strip_workspace_t, reserve_strip_workspace, &
-                                            set_strip_gap, mirror_old
+                                            set_strip_gap, mirror_old, forget_factors
     use faststrip_normal_types, only: normal_result_t, demand_t
     use faststrip_geometry_gap_curve, only: copy_gap_curve, mirror_gap_curve
     use faststrip_geometry_gap_exchange, only: swap_gap_curves
@@ -162,8 +162,7 @@ contains
             if (workspace%old_is_mirrored .neqv. mirrored) call mirror_old(workspace)
         else
             ! No bit of what follows depends on a history before.
-            workspace%linear%known = .false.
-            workspace%newton%kept = .false.
+            call forget_factors(workspace)
         end if
         workspace%old_is_mirrored = mirrored
         workspace%old_is_even = workspace%curve%is_even
