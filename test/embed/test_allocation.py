@@ -259,10 +259,12 @@ class Solver(HostTest):
         for name in ("counting", "threads"):
             cls.shell(f"gfortran {flags} {name}.f90 contacts.o counter.o -o {name}"
                       " $(pkg-config --libs faststrip)")
+        cls.counting = cls.solved("counting")
 
-    def solved(self, name, library_threads=1):
+    @classmethod
+    def solved(cls, name, library_threads=1):
         """Rows of kind, strips, status code, allocations; and the bits by kind and strips."""
-        text = self.shell(f"./{name}", OPENBLAS_NUM_THREADS=str(library_threads))
+        text = cls.shell(f"./{name}", OPENBLAS_NUM_THREADS=str(library_threads))
         rows, bits = [], {}
         for line in text.splitlines():
             if not line.startswith("solved"):
@@ -274,7 +276,7 @@ class Solver(HostTest):
         return text, rows, bits
 
     def test_nothing_is_allocated_after_the_workspace_is_reserved(self):
-        text, rows, _ = self.solved("counting")
+        text, rows, _ = self.counting
         self.assertEqual(len(rows), 25)
         codes = {code for _, _, code, _ in rows}
         self.assertLessEqual({0, 8}, codes)
@@ -286,7 +288,7 @@ class Solver(HostTest):
         self.assertGreaterEqual(int(re.search(r"^counts (\d+)$", text, re.MULTILINE)[1]), 3)
 
     def test_the_same_bits_in_every_process_and_thread(self):
-        _, _, first = self.solved("counting")
+        _, _, first = self.counting
         self.assertEqual({len(words) for words in first.values()}, {1})
         self.assertGreater(len(set().union(*first.values())), 15)
         _, _, shared = self.solved("counting", library_threads=2)
