@@ -33,8 +33,8 @@ module faststrip_wheelset_lookup
     ! answer. Origin: measured: up to 0.4 mrad forces keep a promise of 0.03, with 1 mrad they miss
     ! strips by 0.06.
     real(wp), parameter :: largest_tilt = 5.0e-4_wp
-    ! Tuned [rad]: yaw beyond a table's ends that counts as that of the end. Origin: chosen: above the
-    ! steps of derivatives, and places move with it by less than 0.1 um.
+    ! Tuned [rad]: yaw beyond a table's ends that counts as that of the end. Origin: chosen: above
+    ! the steps of derivatives, and places move with it by less than 0.1 um.
     real(wp), parameter :: yaw_beside = 1.0e-7_wp
     ! Tuned [1]: vertical force that is found, of the load. Origin: chosen: far below what tables
     ! miss.

@@ -4,8 +4,8 @@ module faststrip_wheelset_wheel
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: largest_ratio, most_steps
     use faststrip_base_material, only: normal_compliance
-    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
-                                     st_out_of_range, st_no_convergence
+    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, add_limitation, &
+                                     st_out_of_range, st_no_convergence, st_under_resolved
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, solve_contact_forces, &
                                        estimate_contact, name_yield
@@ -325,6 +325,7 @@ contains
         type(wheelset_axes_t) :: axes
         type(rail_state_t) :: rail
         real(wp) :: height, place(3)
+        logical :: warm
 
         axes = lowered_axes(workspace, lowered)
         height = model%gap_height
@@ -353,8 +354,11 @@ contains
         if (is_error(contact%status)) return
         call place_on_wheel(pair, axes, frame%origin, contact)
         call take_motion(model, contact, case)
-        if (workspace%gap%apart > 0.0_wp .and. case%methods%normal == normal_strip) then
+        if (workspace%gap%apart > 0.0_wp .and. case%methods%normal == normal_strip &
+            .and. .not. case%smoothing > 0.0_wp) then
+            warm = case%warm_start
             call solve_apart(workspace%gap, workspace%contact(i), case, contact)
+            case%warm_start = warm
         else
             call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
         end if
@@ -370,6 +374,8 @@ contains
         type(contact_case_t), intent(inout) :: case
         type(wheel_contact_t), intent(inout) :: contact
 
+        character(len=*), parameter :: not_found = &
+            'heights of strips that do not stand side by side do not converge'
         real(wp) :: part, turn, tolerance
         integer :: pass
 
@@ -407,8 +413,11 @@ contains
                 case%warm_start = .true.
             end do
         end associate
-        call set_status(contact%status, st_no_convergence, 'strips that do not stand side by ' // &
-                        'side find no heights')
+        if (case%stays) then
+            call set_status(contact%status, st_no_convergence, not_found)
+        else
+            call add_limitation(contact%status, st_under_resolved, not_found)
+        end if
 
     contains
 
