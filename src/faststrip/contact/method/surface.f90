@@ -109,6 +109,7 @@ contains
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
         if (is_error(status) .or. .not. result%is_estimated) return
+        if (.not. conformal_turn(workspace) > 0.0_wp) return
         call shift_pressure_errors(workspace, 1.0_wp, result)
         associate (errors => result%normal_errors)
             if (.not. btest(status%limitations, st_under_resolved)) &
