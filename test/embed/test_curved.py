@@ -174,6 +174,19 @@ class Curved(HostTest):
         plane = self.package.contact("s1002", "60e1", y=6.3, load=9e4)
         self.assertGreater(abs(pair.fy - plane.fy), 0.04 * 0.3 * 9e4)
 
+    def test_elements_are_conformal_where_strips_are(self):
+        for load, wanted in (("1.6e5", "conformal"), ("2e4", "")):
+            self.write("turned.nml", f"&contact load_N = {load}\nshift_mm = 6.3\n/\n&wheel\n"
+                       "profile = 's1002'\n/\n&rail profile = '60e1'\n/\n&material mu = 0.3\n/\n"
+                       "&motion\ncreepage = 'formula'\n/\n")
+            for method in ("strip", "norm"):
+                done = subprocess.run(
+                    [ROOT / "bin" / "faststrip", "contact", "turned.nml", "--normal", method,
+                     "--tangential", "none"], check=True, cwd=self.folder, stdout=subprocess.PIPE,
+                    stderr=subprocess.DEVNULL, encoding="utf-8")
+                row, = csv.DictReader(line for line in done.stdout.splitlines() if line[0] != "#")
+                self.assertEqual("conformal" in row["limitations"].split(), wanted != "", method)
+
     def test_wheelsets_balance_with_it(self):
         # Left is right in a mirror, back is ahead; the force in the track is the contacts' own.
         found = []

@@ -474,6 +474,7 @@ class WheelFaces(HostTest):
             ("of other materials: G 82000", lambda: package.Wheelset(
                 material=package.Material(e_wheel=2e5)).use_lookup(table)),
             ("needs strips", lambda: package.Wheelset(normal="auto").use_lookup(table)),
+            ("curved surface", lambda: package.Wheelset(curved=True).use_lookup(table)),
             ("of an older version", lambda: good.use_lookup(older)),
             ("order must be linear or cubic", lambda: good.use_lookup(table, order="square")),
             ("a WheelLookup or None", lambda: good.use_lookup(1)),

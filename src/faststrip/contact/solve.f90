@@ -20,7 +20,7 @@ module faststrip_contact_solve
     use faststrip_contact_method_heat, only: find_heat
     use faststrip_contact_method_loads, only: find_stress_peak
     use faststrip_contact_method_surface, only: check_surface, add_pressure_errors, &
-                                                add_turn_errors
+                                                shift_pressure_errors, add_turn_errors
     use faststrip_contact_methods, only: contact_methods_t, normal_hertz, tangential_none
     use faststrip_contact_parts, only: check_methods, check_contact, set_case_gap, &
                                        find_normal_method, find_tangential_method, &
@@ -193,6 +193,7 @@ contains
         integer :: i
 
         do i = 1, most_loads
+            call clear_steps(workspace%steps)
             call solve_by_methods(workspace, case, normal, tangential, result, status)
             if (is_error(status)) return
             if (abs(result%normal%load - case%load) <= near_load*case%load) return
@@ -218,7 +219,11 @@ contains
 
         call hold_environment(environment)
         call check_methods(workspace, case%methods, normal, tangential, status)
-        if (.not. is_error(status)) call add_forces(workspace, case, tangential, result, status)
+        if (.not. is_error(status)) then
+            call shift_pressure_errors(workspace, -1.0_wp, result)
+            call add_forces(workspace, case, tangential, result, status)
+            call shift_pressure_errors(workspace, 1.0_wp, result)
+        end if
         call add_turn_errors(workspace, case, result, status)
         if (case%asked%subsurface) call find_stress_peak(workspace, case, result, status)
         if (.not. is_error(status)) call find_wear(workspace, case, result)

@@ -91,6 +91,8 @@ contains
                  model%case%friction%slope_factor < 1.0_wp .or. &
                  model%case%friction%table%n > 0) then
             call refuse('a lookup table is for Coulomb friction')
+        else if (model%case%curved) then
+            call refuse('a lookup table has no contacts on a curved surface')
         else if (needs_guide(model%case)) then
             call refuse('beyond its ends a lookup table needs strips: take normal method strip')
         end if

@@ -25,7 +25,7 @@ module faststrip_contact_method_surface
     private
 
     public :: check_surface, lay_strips, flatten_load, turn_forces
-    public :: add_pressure_errors, add_turn_errors
+    public :: add_pressure_errors, shift_pressure_errors, add_turn_errors
 
     ! What a half-space leaves out of a contact that turns by 2 theta, over theta^2; `conformal`
     ! begins at theta = 0.17.
@@ -108,20 +108,32 @@ contains
         type(contact_result_t), intent(inout) :: result !! gets the errors, if it has some
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
-        real(wp) :: turn
-
         if (is_error(status) .or. .not. result%is_estimated) return
-        turn = conformal_turn(workspace)
-        if (.not. turn > 0.0_wp) return
+        if (.not. conformal_turn(workspace) > 0.0_wp) return
+        call shift_pressure_errors(workspace, 1.0_wp, result)
         associate (errors => result%normal_errors)
-            errors%est_err_penetration = errors%est_err_penetration + lost_of_penetration*turn**2
-            errors%est_err_pmax = errors%est_err_pmax + lost_of_pmax*turn**2
-            errors%est_err_area = errors%est_err_area + lost_of_area*turn**2
             if (.not. btest(status%limitations, st_under_resolved)) &
                 call name_resolution(errors%est_err_penetration, errors%est_err_pmax, &
                                      errors%est_err_area, case%resolution_limit, status)
         end associate
     end subroutine add_pressure_errors
+
+    !> Add it, or with -1 take it away, for estimates of forces that know nothing of it.
+    pure subroutine shift_pressure_errors(workspace, times, result)
+        type(workspace_t), intent(in) :: workspace      !! with the solution
+        real(wp), intent(in) :: times                   !! how often
+        type(contact_result_t), intent(inout) :: result !! its errors are shifted, if it has some
+
+        real(wp) :: turn
+
+        if (.not. result%is_estimated) return
+        turn = times*conformal_turn(workspace)**2
+        associate (errors => result%normal_errors)
+            errors%est_err_penetration = errors%est_err_penetration + lost_of_penetration*turn
+            errors%est_err_pmax = errors%est_err_pmax + lost_of_pmax*turn
+            errors%est_err_area = errors%est_err_area + lost_of_area*turn
+        end associate
+    end subroutine shift_pressure_errors
 
     !> The same of the forces: in the plane also what turning its pressures would change, and where
     !> strips do not have their own slip, what that would.
