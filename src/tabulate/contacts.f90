@@ -49,6 +49,7 @@ module faststrip_tabulate_contacts
     !> A wheel on its rail with all that solving needs, one for a thread.
     type :: wheel_solver_t
         private
+        ! A pointer: code that copies and frees it takes the compiler as long as all else here.
         type(wheelset_workspace_t), pointer :: workspace => null()
         type(wheelset_result_t) :: result
         type(kalker_methods_t) :: kalker

@@ -58,7 +58,8 @@ module faststrip_command_wheelset
     type :: run_t
         type(wheelset_model_t) :: model
         type(wheelset_workspace_t), pointer :: workspaces(:) => null()
-            !! one for each state beside; first: state
+            !! one for each state beside; first: state. A pointer: code that copies and frees them
+            !! would take the compiler many times as long as all else here
         type(wheel_strips_t) :: strips                   !! of the last contact
         logical :: wants_strips = .false.
         type(tangential_field_t) :: field                !! of the last contact
