@@ -136,7 +136,8 @@ contains
         else
             call solve_auto(workspace, case, tangential, result, status)
         end if
-        if (.not. is_error(status)) call find_heat(workspace, case, result, status)
+        if (case%asked%temperatures .and. .not. is_error(status)) &
+            call find_heat(workspace, case, result, status)
         if (case%asked%subsurface .and. .not. is_error(status)) &
             call find_stress_peak(workspace, case, result, status)
         if (is_error(status)) then
@@ -178,7 +179,8 @@ contains
         if (.not. is_error(status)) call add_forces(workspace, case, tangential, result, status)
         if (case%asked%subsurface) call find_stress_peak(workspace, case, result, status)
         if (.not. is_error(status)) call find_wear(workspace, case, result)
-        if (.not. is_error(status)) call find_heat(workspace, case, result, status)
+        if (case%asked%temperatures .and. .not. is_error(status)) &
+            call find_heat(workspace, case, result, status)
         call restore_environment(environment)
     end subroutine solve_contact_forces
 
