@@ -100,8 +100,8 @@ module faststrip_command_settings_table
                   range=below_half, quantity=of_poisson_ratio, default='0.28'), &
         setting_t('material', 'nu_rail', a_number, "Poisson's ratio of the rail", &
                   range=below_half, quantity=of_poisson_ratio, default='0.28'), &
-        setting_t('material', 'mu', a_number, 'coefficient of friction, static', range=from_0, &
-                  is_needed=.true.)]
+        setting_t('material', 'mu', a_number, 'coefficient of friction, static; not needed with' &
+                  // ' `mu_table`', range=from_0)]
 
     type(setting_t), parameter :: of_wheel(*) = [ &
         setting_t('wheel', 'profile', a_text, '`s1002`, `cone20`, `cone40` or a file'), &
