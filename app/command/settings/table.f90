@@ -344,8 +344,8 @@ module faststrip_command_settings_table
         setting_t('state', 'speed_mm_s', a_number, 'along the track; below 0 backwards', &
                   is_needed=.true.), &
         setting_t('state', 'pitch_rate_rad_s', a_number, &
-                  'about the axle, negative for rolling ahead; empty: pure rolling at the mean' &
-                  // ' nominal radius'), &
+                  'about the axle, negative for rolling ahead; not given: pure rolling at the' &
+                  // ' mean nominal radius'), &
         setting_t('state', 'Fz_N', a_number, 'vertical force on the rail, normal and friction' &
                   // ' forces together: of the wheel, with `both` of the axle'), &
         setting_t('state', 'z_mm', a_number, 'instead of `Fz_N`, with a roll: height of the' &
