@@ -65,6 +65,7 @@ enum faststrip_status {
     FASTSTRIP_WORKSPACE_TOO_SMALL = 110, /* less capacity than the call needs */
     FASTSTRIP_LINEAR_ALGEBRA = 111,      /* equations that double precision cannot solve */
     FASTSTRIP_NO_FINITE_PATCH = 113,     /* flat or hollow along x: the patch has no end */
+    FASTSTRIP_BEYOND_ADHESION = 114,     /* a given force or moment above what adhesion carries */
     FASTSTRIP_FILE_MISSING = 120, /* of faststrip_read_profile: there is none, or none to be read */
     FASTSTRIP_FILE_FORMAT = 121          /* what stands in a file is not what should */
 };

@@ -1,11 +1,5 @@
 #!/usr/bin/env python3
-"""Draw one result of the program, for its option --plot.
-
-    plot.py COMMAND FOLDER FILE
-
-FOLDER holds what COMMAND wrote to be drawn from; FILE ends with .png, .svg or .pdf. It is either
-whole or as it was.
-"""
+"""Draw one result of the program, for its option --plot."""
 
 import os
 import sys
@@ -25,7 +19,12 @@ from faststrip_plots.tables import InputError, read_table
 
 
 def main(arguments=None):
-    name, folder, path = sys.argv[1:] if arguments is None else arguments
+    made = command.parser(__doc__)
+    made.add_argument("command", choices=PICTURES, help="what wrote the result")
+    made.add_argument("folder", help="of what it wrote to be drawn from")
+    made.add_argument("file", help="picture, .png, .svg or .pdf; it is whole or as it was")
+    told = made.parse_args(arguments)
+    name, folder, path = told.command, told.folder, told.file
     ending = os.path.splitext(path)[1].lower()
     unfinished = f"{os.path.splitext(path)[0]}.unfinished_{os.getpid()}{ending}"
     try:

@@ -316,14 +316,15 @@ contains
         logical :: is_sure
 
         call decompose_decimal(abs(value), digits, power, is_sure)
-        if (is_sure) then
+        ! Of zero, which has none, there are many.
+        if (is_sure .or. .not. abs(value) > 0.0_wp) then
             do i = mantissa_end, sign_at + 1, -1
                 if (i == point_at) cycle
                 buffer(i:i) = achar(iachar('0') + int(modulo(digits, 10_int64)))
                 digits = digits/10
             end do
             buffer(point_at:point_at) = '.'
-            buffer(sign_at:sign_at) = merge('-', ' ', value < 0.0_wp)
+            buffer(sign_at:sign_at) = merge('-', ' ', sign(1.0_wp, value) < 0.0_wp)
             buffer(mantissa_end + 1:mantissa_end + 1) = 'E'
             buffer(exponent_sign_at:exponent_sign_at) = merge('-', '+', power < 0)
             power = abs(power)

@@ -70,7 +70,9 @@ class Below(ProgramTest):
                    "--element-dy", "0.8")
         _, points = self.stresses(*options)
         self.assertEqual(list(points[0])[:9], ["x_mm", "y_mm", "z_mm", *COMPONENTS])
-        self.assertGreater(len({point["z_mm"] for point in points}), 10)
+        depths = sorted({float(point["z_mm"]) for point in points})
+        self.assertGreater(len(depths), 10)
+        self.assert_close(depths[0], 0.5 * (depths[1] - depths[0]), 1e-9)
         most = max(points, key=lambda point: float(point["von_mises_MPa"]))
         _, alone = self.stresses(*options, *(f"--below-{axis}={most[axis + '_mm']}"
                                              for axis in "xyz"))

@@ -117,6 +117,21 @@ class Friction(ProgramTest):
         self.assertEqual(rows[1]["status"], "bad_argument")
         self.assertIn("mu_y_mm must increase", done.stderr)
 
+    def test_a_table_needs_no_coefficient_besides(self):
+        table = "&friction\n  mu_y_mm = -1.0, 1.5\n  mu_table = 0.1, 0.4\n/\n"
+        case = gap_case(motion=moving(0.002))
+        bare = case.replace("mu = 0.3", "nu_rail = 0.28")
+        self.assertNotEqual(bare, case)
+        rows = [self.forces(table, case=one) for one in (case, bare)]
+        for name in ("status", "Fx_N", "Fy_N", "Mz_Nmm"):
+            self.assertEqual(rows[0][name], rows[1][name])
+        self.write("bare.nml", bare)
+        self.refused(1, "contact", "bare.nml",
+                     says=["&material mu must be given, or &friction mu_table"])
+        self.write("hot.nml", bare + table.replace("/", "  mu_hot = 0.1\n/"))
+        self.refused(1, "contact", "hot.nml",
+                     says=["&friction mu_hot must not be given without &material mu"])
+
     def test_what_is_no_table_is_refused(self):
         for table, words in (
                 ("mu_table = 0.3", "&friction mu_y_mm must be given with mu_table"),

@@ -98,7 +98,7 @@ class GivenForces(ProgramTest):
         run = self.run_program("batch", "in.csv")
         rows = rows_of(run.stdout)
         self.assertEqual([row["status"] for row in rows],
-                         ["ok", "ok", "ok", "bad_argument", "bad_argument"])
+                         ["ok", "ok", "ok", "bad_argument", "beyond_adhesion"])
         self.near(rows[0], {"Fx_N": 1.0e4, "Fy_N": -5.0e3}, 1e-4, "Fx_N", "Fy_N")
         self.near(rows[1], {"Fx_N": 1.1e4, "ceta": 3.0e-4}, 1e-4, "Fx_N", "ceta")
         self.assertLess(float(rows[0]["cksi"]), 0.0)

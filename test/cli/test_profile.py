@@ -143,6 +143,19 @@ class Profiles(ProgramTest):
         done = self.run_program("profile", "w.txt", "--kind", "wheel", "-o", "a.prr")
         self.assertEqual(done.returncode, 2)
 
+    def test_standard_profiles_by_their_names(self):
+        done, rows = self.rows("60e1", "--nominal", "60e1", "-o", "60e1.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((rows[0]["format"], rows[0]["kind"]), ("standard", "rail"))
+        self.assertEqual(float(rows[0]["wear_max_mm"]), 0.0)
+        self.assertEqual(rows[0]["y_max_mm"], "3.7149999999999999E+001")
+        again = self.rows("60e1.csv", "--kind", "rail")[1]
+        self.assertEqual(again[0]["points"], rows[0]["points"])
+        wheel = self.rows("s1002")[1]
+        self.assertEqual(wheel[0]["kind"], "wheel")
+        self.assertAlmostEqual(float(wheel[0]["Sd_mm"]), 32.5, delta=0.1)
+        self.assertAlmostEqual(float(wheel[0]["Sh_mm"]), 28.0, delta=0.1)
+
     def test_wear_against_a_nominal_rail(self):
         self.write("x.txt", rail_text())
         done = self.run_program("profile", "x.txt", "--nominal", "uic60")

@@ -83,6 +83,12 @@ class Wheelset(ProgramTest):
             self.assertEqual(run.returncode, 1)
             self.assertIn(words, run.stderr)
 
+    def test_a_pitch_rate_may_be_left_out(self):
+        empty = self.solved("pure,both,2,,0.001,20000,,1.6e5")
+        out = self.solved("pure,both,2,,0.001,20000,1.6e5",
+                          header=HEADER.replace("pitch_rate_rad_s,", ""))
+        self.assertEqual(out, empty)
+
     def test_rollers_only_where_there_can_be_any(self):
         self.write("rollers.nml", CASE.replace("'uic60'", "'uic60'\n  roller_radius_mm = 500"))
         self.refused(1, "conicity", "rollers.nml", says=["&rail roller_radius_mm is for contact"])

@@ -42,6 +42,25 @@ class Pair(HostTest):
         row, = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
         return row
 
+    def test_rollers_with_creepages(self):
+        row = self.program(y=2.0, wheel="s1002", rail="60e1", mu=0.3, radius=460.0, by=GIVEN,
+                           inclination="0.025, roller_radius_mm = 500.0", direction="normal",
+                           strips=15)
+        rig = {"load": 8e4, "roller_radius": 500.0}
+        found = self.faststrip.contact("s1002", "60e1", 2.0, creepage=(1e-3, -5e-4, 1e-4), **rig)
+        self.assertEqual(found.fx, float(row["Fx_N"]))
+        self.assertEqual(found.area, float(row["area_mm2"]))
+        on_rail = self.faststrip.contact("s1002", "60e1", 2.0, load=8e4, creepage=(1e-3, -5e-4, 0))
+        self.assertLess(found.area, 0.95 * on_rail.area)
+        there = self.faststrip.creep_map("s1002", "60e1", 2.0, longitudinal=[1e-3], lateral=-5e-4,
+                                         spin=1e-4, **rig)
+        self.assertAlmostEqual(there.fx[0], found.fx, delta=1e-3)
+        words = "all creepages must be given with a roller_radius"
+        with self.assertRaisesRegex(self.faststrip.FaststripError, words):
+            self.faststrip.contact("s1002", "60e1", 2.0, **rig)
+        with self.assertRaisesRegex(self.faststrip.FaststripError, words):
+            self.faststrip.creep_map("s1002", "60e1", 2.0, longitudinal=[1e-3], **rig)
+
     def test_the_program_has_the_same_contact(self):
         for y, wheel, rail, inclination, radius, mu, by, direction, strips in (
                 (3.0, "s1002", "60e1", 0.025, 460.0, 0.3, FORMULA, "vertical", 15),

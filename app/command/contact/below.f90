@@ -56,7 +56,9 @@ contains
                    option_t(lists(1), 'LIST', 'at these x, in mm, as -9:9:0.1 or 0,1,2.5' &
                             // new_line('a') // '(default: a grid around the contact)'), &
                    option_t(lists(2), 'LIST', 'at these y'), &
-                   option_t(lists(3), 'LIST', 'at these depths')]
+                   option_t(lists(3), 'LIST', 'at these depths (default: from half a step on, for' &
+                            // new_line('a') // 'on the surface stresses hold at middles of ' // &
+                            'elements alone)')]
     end function below_options
 
     !> Read where stresses are asked for; a usage error if that is nowhere.

@@ -7,10 +7,6 @@ module faststrip_command_profile
     use faststrip_files_profile, only: read_profile, profile_formats, profile_options_t, &
                                        profile_file_t, body_wheel, body_rail
     use faststrip_files_profile_writer, only: write_profile, check_profile_name
-    use faststrip_geometry_profile, only: profile_t, make_wheel_profile, make_rail_profile, &
-                                          profile_at
-    use faststrip_geometry_arc_spline, only: standard_kink_angle
-    use faststrip_geometry_cleaning, only: resample
     use faststrip_geometry_wear, only: wear_depths, align_by_field_side, measure_rail_wear
     use faststrip_command_program_console, only: fail, fail_on_error, note, usage_error, &
                                                  version_text, printable, exit_bad_input, &
@@ -20,6 +16,7 @@ module faststrip_command_profile
     use faststrip_command_settings_method_options, only: setting_options, read_option
     use faststrip_command_settings_profiles, only: put_reading
     use faststrip_command_settings_table, only: settings, value_t, of_group
+    use faststrip_files_profile_standard, only: standard_profile
     use faststrip_files_profile_cleaning, only: cleaning_t
     use faststrip_files_profile_taken, only: take_profile
     use faststrip_command_profile_cleaning, only: cleaning_options, take_cleaning
@@ -30,11 +27,6 @@ module faststrip_command_profile
     private
 
     public :: run_profile
-
-    ! Tuned [points]: of a standard profile along y. Origin: chosen.
-    integer, parameter :: nominal_points = 4001
-    ! Tuned [mm]: their distance along the arc. Origin: chosen.
-    real(wp), parameter :: nominal_step = 0.2_wp
 
 contains
 
@@ -60,8 +52,10 @@ contains
             command%about = trim(command%about) // newline
         end do
         command%about = command%about // &
-            'Rows of a CSV describe them: y to the field side, z down, mm. Nothing is repaired' // &
-            newline // 'by default; options are applied in the order below.' // newline
+            'and standard ones by their names: s1002, cone20, cone40, uic60, 60e1, 54e1.' // &
+            newline // 'Rows of a CSV describe them: y to the field side, z down, mm. Nothing ' // &
+            'is repaired' // newline // 'by default; options are applied in the order below.' // &
+            newline
         command%options = [ &
             option_t('-o', 'FILE', 'write the profile there: .csv, .prw or .prr', writes=.true.), &
             option_t('--table', 'FILE', 'write the CSV of descriptions there (default stdout)', &
@@ -200,34 +194,17 @@ contains
 
         type(profile_options_t) :: options
         type(profile_file_t) :: points
-        type(profile_t) :: profile
         type(status_t) :: status
-        real(wp) :: y, z, dz, d2z
-        integer :: i
+        logical :: is_standard
 
-        if (kind == body_wheel) then
-            call make_wheel_profile(name, profile, status)
-        else
-            call make_rail_profile(name, 0.0_wp, profile, status)
-        end if
-        if (is_error(status)) then
+        call standard_profile(name, points, is_standard)
+        if (.not. (is_standard .and. points%kind == kind)) then
             options%kind = kind
             call read_profile(name, options, points, status)
             call fail_on_error(status, '--nominal takes a standard profile or a file')
-            nominal%y = points%y
-            nominal%z = points%z
-            return
         end if
-        ! Many points along y, then as many as are needed along the arc.
-        allocate (nominal%y(nominal_points), nominal%z(nominal_points), source=0.0_wp)
-        do i = 1, nominal_points
-            y = profile%y_first + (profile%y_last - profile%y_first)*(i - 1)/(nominal_points - 1)
-            call profile_at(profile, y, z, dz, d2z, status)
-            nominal%y(i) = y
-            nominal%z(i) = z
-        end do
-        call resample(nominal%y, nominal%z, nominal_step, standard_kink_angle, status)
-        call fail_on_error(status)
+        nominal%y = points%y
+        nominal%z = points%z
     end subroutine take_nominal
 
     subroutine write_table(path, measures)

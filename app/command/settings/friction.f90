@@ -30,17 +30,27 @@ contains
     !> Read the group of a case file, if there is one.
     subroutine read_friction_group(content, mu, from_profiles, law)
         type(case_text_t), intent(in) :: content !! a case file
-        real(wp), intent(in) :: mu               !! of `&material`, checked
+        real(wp), intent(inout) :: mu
+            !! of `&material`, checked; where that has none the largest of the table
         logical, intent(in) :: from_profiles     !! is there a contact angle?
         type(friction_t), intent(inout) :: law   !! has the speed of `&motion`, 0 if not given
 
-        type(group_t) :: group
+        type(group_t) :: group, material
         type(value_t) :: values(at_hot)
         character(len=:), allocatable :: what
         real(wp) :: mu_flange
         integer :: at
 
         call read_group(content, 'friction', .false., group)
+        call read_group(content, 'material', .true., material)
+        call read_table(group, from_profiles, law)
+        if (.not. is_set(material, 'mu')) then
+            if (law%table%n == 0) call refuse(material, 'mu', 'must be given, or &friction ' // &
+                                              'mu_table', '')
+            call refuse_each(group, [character(len=10) :: 'mu_kinetic', 'mu_hot'], &
+                             'must not be given without &material mu')
+            mu = maxval(law%table%mu)
+        end if
         do at = 1, at_hot
             if (at /= at_speed) values(at) = given_value(group, trim(row_friction(at)%key))
         end do
@@ -55,7 +65,6 @@ contains
             'must be at most &material mu, the cold value', &
             'must not be given without &motion speed_mm_s'], law, at, what)
         if (at > 0) call refuse_value()
-        call read_table(group, from_profiles, law)
         if (.not. is_set(group, 'mu_flange')) then
             call refuse_each(group, [character(len=20) :: 'tread_angle_rad', 'flange_angle_rad'], &
                              'must not be given without mu_flange')

@@ -100,8 +100,8 @@ module faststrip_command_settings_table
                   range=below_half, quantity=of_poisson_ratio, default='0.28'), &
         setting_t('material', 'nu_rail', a_number, "Poisson's ratio of the rail", &
                   range=below_half, quantity=of_poisson_ratio, default='0.28'), &
-        setting_t('material', 'mu', a_number, 'coefficient of friction, static', range=from_0, &
-                  is_needed=.true.)]
+        setting_t('material', 'mu', a_number, 'coefficient of friction, static; not needed with' &
+                  // ' `mu_table`', range=from_0)]
 
     type(setting_t), parameter :: of_wheel(*) = [ &
         setting_t('wheel', 'profile', a_text, '`s1002`, `cone20`, `cone40` or a file'), &
@@ -347,8 +347,8 @@ module faststrip_command_settings_table
         setting_t('state', 'speed_mm_s', a_number, 'along the track; below 0 backwards', &
                   is_needed=.true.), &
         setting_t('state', 'pitch_rate_rad_s', a_number, &
-                  'about the axle, negative for rolling ahead; empty: pure rolling at the mean' &
-                  // ' nominal radius'), &
+                  'about the axle, negative for rolling ahead; not given: pure rolling at the' &
+                  // ' mean nominal radius'), &
         setting_t('state', 'Fz_N', a_number, 'vertical force on the rail, normal and friction' &
                   // ' forces together: of the wheel, with `both` of the axle'), &
         setting_t('state', 'z_mm', a_number, 'instead of `Fz_N`, with a roll: height of the' &

@@ -16,13 +16,15 @@ module faststrip_command_wheelset_states
     public :: given_state_t, state_columns_t
     public :: find_state_columns, read_state_row, take_state
 
-    ! Numbers whose columns a table must have: the first; those of a rail; where they are.
+    ! Numbers of a rail; where they are.
     ! Given: of `state_names`.
-    integer, parameter :: n_needed = 6, n_rail = 6
+    integer, parameter :: n_rail = 6
     integer, parameter :: at_y = 1, at_roll = 2, at_yaw = 3, at_speed = 4, at_pitch = 5, &
                           at_load = 6, at_z = 7, at_vy = 8, at_vz = 9, at_roll_rate = 10, &
                           at_yaw_rate = 11, at_curve = 12, at_moment = 13, at_rail(2) = [14, 20], &
                           at_difference = 26, at_axle = 27
+    ! Whose columns a table must have.
+    integer, parameter :: needed(*) = [at_y, at_roll, at_yaw, at_speed, at_load]
 
     !> A state as it was given.
     type :: given_state_t
@@ -53,7 +55,7 @@ contains
         call require_column(table, 'side', columns%side, status)
         do i = 1, n_state
             if (is_error(status)) return
-            if (i <= n_needed) then
+            if (any(i == needed)) then
                 call require_column(table, trim(state_names(i)), columns%number(i), status)
             else
                 columns%number(i) = column_index(table, trim(state_names(i)))

@@ -94,17 +94,17 @@ contains
             'Contacts of a wheelset on a track and their forces: one row a contact. The case has' &
             // new_line('a') // 'the groups &wheel, &rail, &material, &numerics; the states are' &
             // ' rows of a CSV file with the' // new_line('a') // 'columns case,side,y_mm,' // &
-            'roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N (optional: z_mm,' // &
-            new_line('a') // 'vy_mm_s,vz_mm_s,roll_rate_rad_s,yaw_rate_rad_s,curve_radius_mm,' // &
-            'roll_moment_Nmm,axle_moment_Nmm;' // new_line('a') // 'of each rail beside its ' // &
+            'roll_rad,yaw_rad,speed_mm_s,Fz_N (optional: pitch_rate_rad_s,' // new_line('a') // &
+            'axle_moment_Nmm,z_mm,vy_mm_s,vz_mm_s,roll_rate_rad_s,yaw_rate_rad_s,' // &
+            'curve_radius_mm,roll_moment_Nmm;' // new_line('a') // 'of each rail beside its ' // &
             'place rail_right_y_mm,rail_right_z_mm,rail_right_roll_rad,' // new_line('a') // &
             'rail_right_vy_mm_s,rail_right_vz_mm_s,rail_right_roll_rate_rad_s, the same with ' // &
             'left; of' // new_line('a') // 'independent wheels pitch_rate_difference_rad_s, ' // &
             'left less right), or the one of the group' // new_line('a') // '&state. side is ' // &
             'left, right (Fz_N: vertical force of that wheel) or both (of the axle). An' // &
-            new_line('a') // 'empty roll_rad is found, an empty pitch_rate_rad_s is that of ' // &
-            'pure rolling, or found with an' // new_line('a') // 'axle_moment_Nmm; z_mm ' // &
-            'instead of Fz_N gives the height. A state that fails gets its status' // &
+            new_line('a') // 'empty roll_rad is found, a pitch_rate_rad_s not given is ' // &
+            'that of pure rolling, or found with an' // new_line('a') // 'axle_moment_Nmm; z_mm ' &
+            // 'instead of Fz_N gives the height. A state that fails gets its status' // &
             new_line('a') // 'word; the others go on, and the exit code is 1.' // new_line('a')
         command%options = [ &
             option_t('--states', 'FILE.csv', 'the states', reads=.true.), &

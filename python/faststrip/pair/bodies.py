@@ -34,6 +34,7 @@ class Options(TypedDict, total=False):
     gauge_depth: float
     step: float
     height: float
+    roller_radius: float
     material: Material
     friction: Friction
     speed: float
@@ -51,7 +52,7 @@ class Options(TypedDict, total=False):
     budget_us: float
 
 
-OF_GAP = "back_spacing", "tread_line", "gauge", "gauge_depth", "step", "height"
+OF_GAP = "back_spacing", "tread_line", "gauge", "gauge_depth", "step", "height", "roller_radius"
 
 
 class Demand(NamedTuple):
@@ -142,7 +143,9 @@ class Pair:
 
     def rolling(self, gap: Gap, left_radius: float, yaw: float) -> Creepages:
         """Creepages of the right wheel of a wheelset that rolls steadily on rigid axles: where it
-        stands the left one has another rolling radius."""
+        stands the left one has another rolling radius. On rollers they are the rig's own."""
+        if self._setup.get("roller_radius", 0.0):
+            raise bad_argument("all creepages must be given with a roller_radius")
         return ((gap.radius - left_radius) / (2.0 * self.radius),
                 math.sin(yaw) / math.cos(gap.angle), -math.sin(gap.angle) / self.radius)
 

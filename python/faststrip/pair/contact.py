@@ -134,10 +134,11 @@ def contact(wheel: Body, rail: Body, y: float = 0.0, *, vertical_load: Optional[
     wheel_radius : float
         Rolling radius at the nominal rolling circle, mm.
     **options
-        back_spacing, tread_line, gauge, gauge_depth, step and height as of `profile_gap`;
-        material, friction, speed, target, tolerance and budget_us as of `Contact.solve`; normal,
-        tangential, strips_per_patch, points_per_strip, fastsim_grid, estimate, resolution_limit,
-        force_limit and curved as of `Contact`.
+        back_spacing, tread_line, gauge, gauge_depth, step, height and roller_radius as of
+        `profile_gap`, on a roller with all creepages given; material, friction, speed, target,
+        tolerance and budget_us as of `Contact.solve`; normal, tangential, strips_per_patch,
+        points_per_strip, fastsim_grid, estimate, resolution_limit, force_limit and curved as of
+        `Contact`.
 
     Returns
     -------

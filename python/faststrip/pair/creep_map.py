@@ -176,7 +176,8 @@ def creep_map(wheel: Body, rail: Body, y: float = 0.0, *,
         raise bad_argument("one of longitudinal, lateral and spin must be an array, got none")
     y, value = numbers(("y", demand.name), (y, demand.value))
     gap = pair.gap(y)
-    rolling = pair.rolling(gap, pair.gap(-y).radius if longitudinal is None else gap.radius, 0.0)
+    rolling = ((0.0, 0.0, 0.0) if all(one is not None for one in given.values()) else
+               pair.rolling(gap, pair.gap(-y).radius if longitudinal is None else gap.radius, 0.0))
     meshes = iter(np.meshgrid(*rows.values(), indexing="ij"))
     shape = tuple(one.size for one in rows.values())
     creepages = [next(meshes) if name in rows

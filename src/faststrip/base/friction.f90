@@ -137,7 +137,7 @@ contains
         else if (friction%table%n /= 0 .and. friction%flange_share /= 1.0_wp) then
             call set_status(status, st_bad_argument, 'friction of the flange must not be given ' &
                             // 'with a table of friction')
-        else
+        else if (friction%table%n /= 0) then
             call check_friction_table(friction%table, status)
         end if
     end subroutine check_friction

@@ -22,7 +22,7 @@ module faststrip_base_status
     public :: st_bad_argument, st_not_finite, st_not_increasing, st_too_few_points, st_bad_material
     public :: st_bad_load, st_no_contact, st_no_hertz_ellipse, st_no_convergence, st_out_of_range
     public :: st_workspace_too_small, st_linear_algebra, st_quadrature, st_no_finite_patch
-    public :: st_file_missing, st_file_format, st_file_write
+    public :: st_beyond_adhesion, st_file_missing, st_file_format, st_file_write
 
     !> Length of a status message, characters.
     integer, parameter :: message_length = 256
@@ -59,6 +59,7 @@ module faststrip_base_status
     integer, parameter :: st_linear_algebra = 111
     integer, parameter :: st_quadrature = 112
     integer, parameter :: st_no_finite_patch = 113
+    integer, parameter :: st_beyond_adhesion = 114
     integer, parameter :: st_file_missing = 120
     integer, parameter :: st_file_format = 121
     integer, parameter :: st_file_write = 122
@@ -174,6 +175,7 @@ contains
         case (st_linear_algebra); word = 'linear_algebra'
         case (st_quadrature); word = 'quadrature'
         case (st_no_finite_patch); word = 'no_finite_patch'
+        case (st_beyond_adhesion); word = 'beyond_adhesion'
         case (st_file_missing); word = 'file_missing'
         case (st_file_format); word = 'file_format'
         case (st_file_write); word = 'file_write'

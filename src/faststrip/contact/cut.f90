@@ -57,7 +57,7 @@ contains
         type(status_t), intent(out) :: status            !! those of the method
 
         type(creepage_t) :: creepage
-        real(wp) :: share, conductivity(2)
+        real(wp) :: share, gain
 
         result%creepage = tried%creepage
         call cut_creepage(tried%creepage, creepage, share)
@@ -66,14 +66,14 @@ contains
             call method%solve(workspace, tried, result, status)
             return
         end if
-        conductivity = tried%thermal%conductivity
-        ! As much heat of less slip at more speed: the effusivity goes with the root of share.
-        tried%thermal%conductivity = conductivity*share
-        tried%creepage = creepage
+        ! As much heat of less slip.
+        gain = workspace%friction%heat%gain
+        workspace%friction%heat%gain = gain/share
         workspace%friction%speed = tried%friction%speed/share
+        tried%creepage = creepage
         call method%solve(workspace, tried, result, status)
-        tried%thermal%conductivity = conductivity
         tried%creepage = result%creepage
+        workspace%friction%heat%gain = gain
         workspace%friction%speed = tried%friction%speed
         if (.not. is_error(status)) call scale_slip(workspace, result, 1.0_wp/share)
     end subroutine solve_tried

@@ -23,7 +23,7 @@ module faststrip_contact_given_forces
     use faststrip_base_limits, only: rounding
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      add_limitation, number_text, st_bad_argument, st_not_finite, &
-                                     st_no_convergence, st_not_unique
+                                     st_no_convergence, st_not_unique, st_beyond_adhesion
     use faststrip_contact_case, only: contact_case_t, given_forces_t
     use faststrip_contact_cut, only: solve_tried
     use faststrip_contact_method, only: contact_result_t, workspace_t, tangential_method_t, &
@@ -102,8 +102,8 @@ contains
         class(tangential_method_t), intent(in) :: method !! that of the case
         type(contact_result_t), intent(inout) :: result  !! gets its tangential part
         type(status_t), intent(out) :: status
-            !! those of the method, of `check_given_forces`; `st_bad_argument`: above mu N, or what
-            !! the method gives here; `st_no_convergence`; limitation `st_not_unique`
+            !! those of the method, of `check_given_forces`; `st_beyond_adhesion`: above mu N, or
+            !! what the method gives here; `st_no_convergence`; limitation `st_not_unique`
 
         type(contact_case_t) :: tried
         type(force_map_t) :: map
@@ -147,7 +147,7 @@ contains
         asked = size_of(map, given%force)
         if (map%force > 0.0_wp .and. (asked <= map%force*(1.0_wp + rounding) &
                                       .or. map%law == law_linear)) return
-        call set_status(status, st_bad_argument, 'a given force must not be above mu N, ' // &
+        call set_status(status, st_beyond_adhesion, 'a given force must not be above mu N, ' // &
                         trim(number_text(map%force)) // ' N, got ' // &
                         trim(number_text(asked)) // ' N')
     end subroutine check_size
@@ -323,7 +323,7 @@ contains
         type(status_t), intent(out) :: status
 
         if (largest < asked) then
-            call set_status(status, st_bad_argument, trim(name) // ' gives a force of ' // &
+            call set_status(status, st_beyond_adhesion, trim(name) // ' gives a force of ' // &
                             trim(number_text(largest)) // ' N at most here, got a given one ' // &
                             'of ' // trim(number_text(asked)) // ' N')
         else

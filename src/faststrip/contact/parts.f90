@@ -222,6 +222,7 @@ contains
         result%creepage_errors = 0.0_wp
         result%forces_are_estimated = .false.
         workspace%field%n = 0
+        workspace%field%has_temperature = .false.
         workspace%strip_forces%n = 0
         call check_forces(workspace, case, method%about, status)
         if (is_error(status)) return

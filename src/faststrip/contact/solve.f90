@@ -151,7 +151,8 @@ contains
         end if
         call add_pressure_errors(workspace, case, result, status)
         call add_turn_errors(workspace, case, result, status)
-        if (.not. is_error(status)) call find_heat(workspace, case, result, status)
+        if (case%asked%temperatures .and. .not. is_error(status)) &
+            call find_heat(workspace, case, result, status)
         if (case%asked%subsurface .and. .not. is_error(status)) &
             call find_stress_peak(workspace, case, result, status)
         if (is_error(status)) then
@@ -227,7 +228,8 @@ contains
         call add_turn_errors(workspace, case, result, status)
         if (case%asked%subsurface) call find_stress_peak(workspace, case, result, status)
         if (.not. is_error(status)) call find_wear(workspace, case, result)
-        if (.not. is_error(status)) call find_heat(workspace, case, result, status)
+        if (case%asked%temperatures .and. .not. is_error(status)) &
+            call find_heat(workspace, case, result, status)
         call restore_environment(environment)
     end subroutine solve_contact_forces
 

@@ -52,7 +52,7 @@ contains
         if (is_error(status)) return
         call hold_environment(environment)
         do i = 1, size(x)
-            surfaces = surface_temperatures(workspace%field, workspace%heat, &
+            surfaces = surface_temperatures(workspace%field, workspace%friction%heat, &
                                             merge(-x(i), x(i), mirror%x), &
                                             merge(-y(i), y(i), mirror%y))
             wheel(i) = surfaces(1)

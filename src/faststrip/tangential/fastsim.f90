@@ -74,9 +74,6 @@ module faststrip_tangential_fastsim
     type :: fastsim_variant_t
         logical :: elliptic_bound = .false.     !! or the parabolic one
         logical :: single_flexibility = .false. !! or three
-        type(friction_t) :: friction
-            !! how the bound falls with slip and temperature, and a table over y in place of mu,
-            !! which is then its mean; other parts do not count here
     end type fastsim_variant_t
 
     !> Areas of the elements gone through so far.
@@ -96,7 +93,7 @@ contains
     !> theory itself uses: with three flexibilities it is not parallel to the traction, but it
     !> never feeds energy.
     pure subroutine fastsim_solve(hertz, material, mu, creepage, nx, ny, result, status, field, &
-                                  variant)
+                                  variant, friction)
         type(hertz_t), intent(in) :: hertz           !! the ellipse, centred at y = hertz%y
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -110,13 +107,16 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
             !! filled when present; needs capacity for nx*ny elements
         type(fastsim_variant_t), intent(in), optional :: variant !! Kalker's choice without
+        type(friction_t), intent(in), optional :: friction
+            !! how the bound falls with slip and temperature, and a table over y in place of mu,
+            !! which is then its mean; other parts do not count here
 
         type(areas_t) :: areas
         type(kalker_coefficients_t) :: c
 
         call check_input(mu, creepage, nx, ny, 1, status, field)
         if (is_error(status)) return
-        call check_variant(nx, status, variant)
+        call check_fall(nx, status, friction)
         if (is_error(status)) return
         call check_material(material, status)
         if (is_error(status)) return
@@ -125,8 +125,8 @@ contains
         call kalker_coefficients(hertz%a/hertz%b, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
         call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, &
-                         combined_shear_modulus(material), mu, creepage, nx, ny, chosen(variant), &
-                         result, areas, field)
+                         combined_shear_modulus(material), mu, creepage, [nx, ny], &
+                         chosen(variant), result, areas, field, friction)
         result%stick_fraction = stick_share(areas%stuck, areas%covered)
     end subroutine fastsim_solve
 
@@ -179,7 +179,7 @@ contains
                             ' coefficients beyond all proportion')
         else
             call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, g, mu, &
-                             creepage, nx, ny, chosen(), result, areas, field)
+                             creepage, [nx, ny], chosen(), result, areas, field)
             result%stick_fraction = stick_share(areas%stuck, areas%covered)
         end if
     end subroutine fastsim_coefficients_solve
@@ -187,7 +187,7 @@ contains
     !> Forces by FASTSIM on the virtual ellipses of any contact patches: same area, proportions of
     !> the second moments, centroid and load (`patch_ellipse`), each under its own Hertz pressure.
     pure subroutine fastsim_strips_solve(strips, material, mu, creepage, nx, ny, result, status, &
-                                         field, variant)
+                                         field, variant, friction)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -201,6 +201,7 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
             !! filled when present; needs capacity for nx*ny elements a patch
         type(fastsim_variant_t), intent(in), optional :: variant !! Kalker's choice without
+        type(friction_t), intent(in), optional :: friction !! as of `fastsim_solve`
 
         type(patch_ellipse_t) :: ellipse
         type(kalker_coefficients_t) :: c
@@ -211,7 +212,7 @@ contains
         if (is_error(status)) return
         call check_input(mu, creepage, nx, ny, strips%n_patches, status, field)
         if (is_error(status)) return
-        call check_variant(nx, status, variant)
+        call check_fall(nx, status, friction)
         if (is_error(status)) return
         call check_material(material, status)
         if (is_error(status)) return
@@ -227,8 +228,8 @@ contains
                 result = tangential_result_t()
                 return
             end if
-            call add_ellipse(ellipse, c, combined_shear_modulus(material), mu, creepage, nx, ny, &
-                             chosen(variant), result, areas, field)
+            call add_ellipse(ellipse, c, combined_shear_modulus(material), mu, creepage, [nx, ny], &
+                             chosen(variant), result, areas, field, friction)
         end do
         result%stick_fraction = stick_share(areas%stuck, areas%covered)
     end subroutine fastsim_strips_solve
@@ -253,17 +254,17 @@ contains
     end subroutine check_input
 
     !> Refuse friction that is none, and rows that are too long for temperatures.
-    pure subroutine check_variant(nx, status, variant)
+    pure subroutine check_fall(nx, status, friction)
         integer, intent(in) :: nx             !! elements along
         type(status_t), intent(inout) :: status !! those of `check_friction`; `st_out_of_range`
-        type(fastsim_variant_t), intent(in), optional :: variant
+        type(friction_t), intent(in), optional :: friction
 
-        if (.not. present(variant)) return
-        call check_friction(variant%friction, status)
-        if (is_error(status) .or. .not. falls_when_hot(variant%friction)) return
+        if (.not. present(friction)) return
+        call check_friction(friction, status)
+        if (is_error(status) .or. .not. falls_when_hot(friction)) return
         if (nx > most_along) call set_status(status, st_out_of_range, 'friction that falls ' // &
             'with temperature takes at most 1000 elements along, got ' // count_text(nx))
-    end subroutine check_variant
+    end subroutine check_fall
 
     pure type(fastsim_variant_t) function chosen(variant)
         type(fastsim_variant_t), intent(in), optional :: variant
@@ -273,24 +274,28 @@ contains
     end function chosen
 
     !> Add the forces of one ellipse.
-    pure subroutine add_ellipse(ellipse, c, g, mu, creepage, nx, ny, variant, result, areas, field)
+    pure subroutine add_ellipse(ellipse, c, g, mu, creepage, grid, variant, result, areas, field, &
+                                friction)
         type(patch_ellipse_t), intent(in) :: ellipse !! where it is and what it carries
         type(kalker_coefficients_t), intent(in) :: c !! of the ellipse
         real(wp), intent(in) :: g                    !! combined shear modulus, MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction
         type(creepage_t), intent(in) :: creepage     !! about y = 0
-        integer, intent(in) :: nx, ny                !! elements along, strips across
+        integer, intent(in) :: grid(2)               !! elements along, strips across
         type(fastsim_variant_t), intent(in) :: variant !! bound and flexibilities
         type(tangential_result_t), intent(inout) :: result !! forces, moment, power are added to
         type(areas_t), intent(inout) :: areas      !! added to
         type(tangential_field_t), intent(inout), optional :: field !! emptied beforehand
+        type(friction_t), intent(in), optional :: friction !! checked
 
         real(wp) :: a, b, y0, l1, l2, l3, peak_bound, pmax, width, y, row, h, x, t, bound
         real(wp) :: size_squared, step, cksi, slope_x, slope_y, px, py, sx, sy, cell, place
         real(wp) :: ahead_x, ahead_y, left, fall, gain, heat(most_along), row_bound
-        integer :: i, j, state
+        integer :: nx, ny, i, j, state
         logical :: is_falling, is_hot, varies
 
+        nx = grid(1)
+        ny = grid(2)
         a = ellipse%a
         b = ellipse%b
         y0 = ellipse%y
@@ -307,9 +312,14 @@ contains
             l3 = l1
         end if
         peak_bound = mu*ellipse%load/(a*width*grid_sum(nx, ny, variant%elliptic_bound))
-        is_falling = falls(variant%friction)
-        varies = variant%friction%table%n > 0 .and. mu > 0.0_wp
-        is_hot = falls_when_hot(variant%friction)
+        is_falling = .false.
+        is_hot = .false.
+        varies = .false.
+        if (present(friction)) then
+            is_falling = falls(friction)
+            is_hot = falls_when_hot(friction)
+            varies = friction%table%n > 0 .and. mu > 0.0_wp
+        end if
         do i = 1, ny
             t = real(2*i - 1 - ny, wp)/ny
             y = b*t
@@ -322,8 +332,8 @@ contains
             left = 1.0_wp
             row_bound = peak_bound
             if (varies) row_bound = peak_bound/mu*mean_mu_between( &
-                variant%friction%table, mu, y0 + y - 0.5_wp*width, y0 + y + 0.5_wp*width)
-            gain = variant%friction%heat%gain*sqrt(h)
+                friction%table, mu, y0 + y - 0.5_wp*width, y0 + y + 0.5_wp*width)
+            if (is_hot) gain = friction%heat%gain*sqrt(h)
             do j = 1, nx
                 x = row*real(nx - 2*j + 1, wp)/nx
                 ! Half a step from the edge to the middle of the first element.
@@ -333,7 +343,10 @@ contains
                 py = py - step*slope_y
                 place = max((1.0_wp - t*t) - (x/a)**2, 0.0_wp)
                 bound = row_bound*merge(sqrt(place), place, variant%elliptic_bound)
-                if (is_falling) bound = left*bound
+                if (is_falling) then
+                    bound = left*bound
+                    if (is_hot) heat(j) = 0.0_wp
+                end if
                 size_squared = px*px + py*py
                 sx = 0.0_wp
                 sy = 0.0_wp
@@ -347,10 +360,10 @@ contains
                     px = px*(bound/sqrt(size_squared))
                     py = py*(bound/sqrt(size_squared))
                     if (is_falling) then
-                        fall = falling_share(variant%friction, hypot(l1*(px - ahead_x), &
-                                                                     l2*(py - ahead_y))/step)/left
-                        if (is_hot) fall = fall*hot_share(variant%friction, &
-                            variant%friction%heat%shared + gain*rise_ahead(heat(:j - 1)), &
+                        fall = falling_share(friction, hypot(l1*(px - ahead_x), &
+                                                             l2*(py - ahead_y))/step)/left
+                        if (is_hot) fall = fall*hot_share(friction, &
+                            friction%heat%shared + gain*rise_ahead(heat(:j - 1)), &
                             gain*weight_of_itself*fall*max((px*l1*(ahead_x - px) &
                                                      + py*l2*(ahead_y - py))/step, 0.0_wp))
                         left = left*fall
@@ -359,8 +372,8 @@ contains
                     end if
                     sx = l1*(px - ahead_x)/step
                     sy = l2*(py - ahead_y)/step
+                    if (is_falling .and. is_hot) heat(j) = max(-(px*sx + py*sy), 0.0_wp)
                 end if
-                if (is_hot) heat(j) = max(-(px*sx + py*sy), 0.0_wp)
                 areas%covered = areas%covered + cell
                 result%fx = result%fx + cell*px
                 result%fy = result%fy + cell*py

@@ -162,10 +162,6 @@ contains
             !! slope, which the material has already, counts (S14)
 
         type(patch_rolling_t) :: rolling
-        type(march_sums_t) :: sums
-        type(coupling_t) :: coupling
-        type(tractions_t) :: tractions(most_parts)
-        integer :: pass
 
         call check_motion(mu, creepage, status)
         if (is_error(status)) return
@@ -191,38 +187,58 @@ contains
 
         rolling = patch_rolling_t(mu=mu, creepage=creepage, given=creepage, plane=creepage, &
                                   points=points_per_strip, mu_in_slip=mu, &
+                                  pressure_slip=slip_by_pressure(material), &
                                   plane_counts=strips%is_curved)
-        rolling%pressure_slip = slip_by_pressure(material)
+        if (present(with_fit)) rolling%is_corrected = with_fit
         if (present(friction)) then
-            rolling%friction = friction
+            if (falls_when_hot(friction) .and. points_per_strip > most_hot_points) then
+                call set_status(status, st_out_of_range, 'friction that falls with temperature ' &
+                                // 'takes at most 128 points per strip, got ' // &
+                                count_text(points_per_strip))
+                return
+            end if
             ! A softer surface is no softer under pressure.
             rolling%pressure_slip = rolling%pressure_slip*friction%slope_factor
+            call roll(strips, material, rolling, friction, result, status, field, per_strip)
+        else
+            call roll(strips, material, rolling, friction_t(), result, status, field, per_strip)
         end if
-        if (falls_when_hot(rolling%friction) .and. points_per_strip > most_hot_points) then
-            call set_status(status, st_out_of_range, 'friction that falls with temperature ' // &
-                            'takes at most 128 points per strip, got ' // &
-                            count_text(points_per_strip))
-            return
-        end if
-        if (present(with_fit)) rolling%is_corrected = with_fit
+    end subroutine faststrip_tangential_solve
+
+    !> Roll all patches.
+    pure subroutine roll(strips, material, rolling, friction, result, status, field, per_strip)
+        type(contact_strips_t), intent(in) :: strips
+        type(material_t), intent(in) :: material
+        type(patch_rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
+        type(tangential_result_t), intent(inout) :: result
+        type(status_t), intent(inout) :: status
+        type(tangential_field_t), intent(inout), optional :: field
+        type(strip_forces_t), intent(inout), optional :: per_strip
+
+        type(march_sums_t) :: sums
+        type(coupling_t) :: coupling
+        type(tractions_t) :: tractions(most_parts)
+        integer :: pass
+
         if (rolling%is_corrected) then
             call find_coupling(strips, material, coupling)
             if (coupling%n > 1) then
                 do pass = 1, coupling_passes
                     sums = march_sums_t()
-                    call solve_patches(strips, material, rolling, coupling, tractions, sums, &
-                                       status)
+                    call solve_patches(strips, material, rolling, friction, coupling, tractions, &
+                                       sums, status)
                     if (is_error(status)) return
                 end do
                 sums = march_sums_t()
             end if
         end if
-        call solve_patches(strips, material, rolling, coupling, tractions, sums, status, field, &
-                           per_strip)
+        call solve_patches(strips, material, rolling, friction, coupling, tractions, sums, &
+                           status, field, per_strip)
         if (is_error(status)) return
         result = sums%result
         result%stick_fraction = stick_share(sums%stuck, sums%covered)
-    end subroutine faststrip_tangential_solve
+    end subroutine roll
 
     !> Empty the sums of strips that are about to be filled, if they have the capacity.
     pure subroutine empty_strip_forces(forces, n, status)
@@ -248,11 +264,12 @@ contains
 
     !> Add the forces of all patches that roll with the tractions of the others; what the tractions
     !> are then.
-    pure subroutine solve_patches(strips, material, rolling, coupling, tractions, sums, status, &
-                                  field, per_strip)
+    pure subroutine solve_patches(strips, material, rolling, friction, coupling, tractions, sums, &
+                                  status, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         type(material_t), intent(in) :: material
         type(patch_rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
         type(coupling_t), intent(in) :: coupling
         type(tractions_t), intent(inout) :: tractions(:) !! of its parts
         type(march_sums_t), intent(inout) :: sums
@@ -275,7 +292,7 @@ contains
         do while (last < strips%n)
             first = last + 1
             last = patch_end(strips, first)
-            induced%mu = patch_mu(strips, first, last, rolling)
+            induced%mu = patch_mu(strips, first, last, rolling, friction)
             induced%mu_in_slip = induced%mu
             if (strips%is_curved) then
                 induced%given = patch_motion(strips, first, last, rolling%plane)
@@ -298,11 +315,11 @@ contains
                                                     lateral_stiffness(law, ellipse))
             end if
             before = sums
-            if (falls(rolling%friction)) &
+            if (falls(friction)) &
                 induced%mu_in_slip = induced%mu*share_in_slip(strips, first, last, material, &
-                                                              induced)
-            call solve_patch(strips, first, last, material, induced, sums, status, field, &
-                             per_strip)
+                                                              induced, friction)
+            call solve_patch(strips, first, last, material, induced, friction, sums, status, &
+                             field, per_strip)
             if (is_error(status)) return
             if (coupling%n > 1) call sum_tractions(sums%result%fx - before%result%fx, &
                                                    sums%result%fy - before%result%fy, &
@@ -340,49 +357,53 @@ contains
     end function patch_motion
 
     !> The static coefficient of a patch, the mean by load where it varies (S13).
-    pure real(wp) function patch_mu(strips, first, last, rolling) result(mu)
+    pure real(wp) function patch_mu(strips, first, last, rolling, friction) result(mu)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(patch_rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
 
         real(wp) :: load, part
         integer :: k
 
         mu = rolling%mu
-        if (rolling%friction%table%n == 0) return
+        if (friction%table%n == 0) return
         load = 0.0_wp
         mu = 0.0_wp
         do k = first, last
             part = load_of(strips, k)
             load = load + part
-            mu = mu + part*strip_mu(strips, k, rolling%rolling_t)
+            mu = mu + part*strip_mu(strips, k, rolling%mu, friction)
         end do
         if (load > 0.0_wp) mu = mu/load
     end function patch_mu
 
     !> What is left of the static coefficient where a patch slides, the mean by its bound; one where
     !> nothing slides.
-    pure real(wp) function share_in_slip(strips, first, last, material, rolling) result(share)
+    pure real(wp) function share_in_slip(strips, first, last, material, rolling, friction) &
+        result(share)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(material_t), intent(in) :: material
-        type(patch_rolling_t), intent(in) :: rolling ! with the static one
+        type(patch_rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
 
         type(march_sums_t) :: sums
         type(status_t) :: status
 
-        call solve_patch(strips, first, last, material, rolling, sums, status)
+        call solve_patch(strips, first, last, material, rolling, friction, sums, status)
         share = 1.0_wp
         if (sums%slid_static > 0.0_wp) share = sums%slid/sums%slid_static
     end function share_in_slip
 
     !> Add the forces of strips `first` to `last`, one patch.
-    pure subroutine solve_patch(strips, first, last, material, rolling, sums, status, field, &
-                                per_strip)
+    pure subroutine solve_patch(strips, first, last, material, rolling, friction, sums, status, &
+                                field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(material_t), intent(in) :: material
         type(patch_rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
         type(march_sums_t), intent(inout) :: sums
         type(status_t), intent(inout) :: status
         type(tangential_field_t), intent(inout), optional :: field
@@ -399,20 +420,21 @@ contains
         first_element = 1
         if (present(field)) first_element = field%n + 1
         if (has_neck(strips%half_length(first:last))) then
-            call march_sub_patches(strips, first, last, material, rolling, sums, &
+            call march_sub_patches(strips, first, last, material, rolling, friction, sums, &
                                    missing, status, field, per_strip)
         else
             ellipse = patch_ellipse(strips, first, last)
             call find_law(ellipse, material, rolling%mu_in_slip, rolling%creepage, law, status, &
                           linear)
-            call march_strips(law, strips, first, last, rolling%rolling_t, sums, field, per_strip)
+            call march_strips(law, strips, first, last, rolling%rolling_t, friction, sums, field, &
+                              per_strip)
             if (rolling%is_corrected .and. law%weight > 0.0_wp) &
                 call add_missing(patch_shape(strips, first, last, ellipse), ellipse, law, linear, &
                                  material, rolling, 1.0_wp, missing)
         end if
         if (is_error(status)) return
-        if (rolling%is_corrected) call correct(strips, first, last, rolling, before, missing, &
-                                       first_element, sums, field, per_strip)
+        if (rolling%is_corrected) call correct(strips, first, last, rolling, friction, before, &
+                                                missing, first_element, sums, field, per_strip)
         power = work(before, sums, rolling%given)
         if (present(field)) call match_power(power, first_element, field)
         sums%result%friction_power = sums%result%friction_power + power
@@ -463,11 +485,12 @@ contains
     !> Add what is missing to the forces of a patch, of which no more than mu N is left, and to its
     !> stick, which is no less than nothing and no more than all (S10); to the forces of its strips
     !> and elements in proportion to their loads.
-    pure subroutine correct(strips, first, last, rolling, before, missing, first_element, sums, &
-                            field, per_strip)
+    pure subroutine correct(strips, first, last, rolling, friction, before, missing, &
+                            first_element, sums, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(patch_rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
         type(march_sums_t), intent(in) :: before !! the sums without the patch
         real(wp), intent(in) :: missing(4)       !! N, N, N mm, mm^2
         integer, intent(in) :: first_element     !! of the patch
@@ -488,7 +511,7 @@ contains
         associate (result => sums%result)
             force = [result%fx - before%result%fx, result%fy - before%result%fy]
             ! What sticks may carry more than friction has fallen to.
-            if (falls(rolling%friction)) limit = max(bound, norm2(force))
+            if (falls(friction)) limit = max(bound, norm2(force))
             change = force + missing(:2)
             if (norm2(change) > limit) change = change*(limit/norm2(change))
             change = change - force
@@ -498,11 +521,11 @@ contains
         end associate
         sums%stuck = min(max(sums%stuck + missing(4), before%stuck), &
                          before%stuck + sums%covered - before%covered)
-        if (present(field)) call correct_field(change, first_element, rolling%rolling_t, field)
+        if (present(field)) call correct_field(change, first_element, rolling%mu, friction, field)
         if (.not. present(per_strip)) return
         do k = first, last
             associate (share => load_of(strips, k)*rolling%mu_in_slip/bound &
-                                *strip_mu(strips, k, rolling%rolling_t)/rolling%mu)
+                                *strip_mu(strips, k, rolling%mu, friction)/rolling%mu)
                 per_strip%fx(k) = per_strip%fx(k) + change(1)*share
                 per_strip%fy(k) = per_strip%fy(k) + change(2)*share
             end associate
@@ -520,10 +543,11 @@ contains
 
     !> Add forces to the elements of a patch in proportion to their loads and friction; where they
     !> slide, the slip turns with the traction.
-    pure subroutine correct_field(change, first, rolling, field)
+    pure subroutine correct_field(change, first, mu, friction, field)
         real(wp), intent(in) :: change(2)                !! N
         integer, intent(in) :: first                     !! first element of the patch
-        type(rolling_t), intent(in) :: rolling           !! its friction, mu > 0
+        real(wp), intent(in) :: mu                       !! the patch's, > 0
+        type(friction_t), intent(in) :: friction         !! its table
         type(tangential_field_t), intent(inout) :: field !! with the patch's elements last
 
         real(wp) :: per_bound(2), slip, bound
@@ -551,19 +575,20 @@ contains
             integer, intent(in) :: i
 
             bound_of = field%pn(i)
-            if (rolling%friction%table%n > 0) bound_of = &
-                field%pn(i)*(mu_at(rolling%friction%table, rolling%mu, field%y(i))/rolling%mu)
+            if (friction%table%n > 0) bound_of = &
+                field%pn(i)*(mu_at(friction%table, mu, field%y(i))/mu)
         end function bound_of
     end subroutine correct_field
 
     !> March the strips of a patch with a neck; of more strips than the stack has room for, what is
     !> known of each is allocated.
-    pure subroutine march_sub_patches(strips, first, last, material, rolling, sums, &
+    pure subroutine march_sub_patches(strips, first, last, material, rolling, friction, sums, &
                                       missing, status, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(material_t), intent(in) :: material
         type(patch_rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
         type(march_sums_t), intent(inout) :: sums
         real(wp), intent(inout) :: missing(4) !! gets what the march misses; N, N, N mm, mm^2
         type(status_t), intent(inout) :: status
@@ -577,21 +602,22 @@ contains
             call find_mean_laws(strips, first, last, material, rolling, missing, &
                                 openness, share, mean, status)
             if (is_error(status)) return
-            call march_by_means(strips, first, last, rolling%rolling_t, mean, sums, field, &
-                                per_strip)
+            call march_by_means(strips, first, last, rolling%rolling_t, friction, mean, sums, &
+                                field, per_strip)
         else
-            call march_many(strips, first, last, material, rolling, sums, missing, &
+            call march_many(strips, first, last, material, rolling, friction, sums, missing, &
                             status, field, per_strip)
         end if
     end subroutine march_sub_patches
 
     !> The same of so many strips.
-    pure subroutine march_many(strips, first, last, material, rolling, sums, &
+    pure subroutine march_many(strips, first, last, material, rolling, friction, sums, &
                                missing, status, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(material_t), intent(in) :: material
         type(patch_rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
         type(march_sums_t), intent(inout) :: sums
         real(wp), intent(inout) :: missing(4)
         type(status_t), intent(inout) :: status
@@ -604,7 +630,8 @@ contains
         call find_mean_laws(strips, first, last, material, rolling, missing, &
                             openness, share, mean, status)
         if (is_error(status)) return
-        call march_by_means(strips, first, last, rolling%rolling_t, mean, sums, field, per_strip)
+        call march_by_means(strips, first, last, rolling%rolling_t, friction, mean, sums, field, &
+                            per_strip)
     end subroutine march_many
 
     !> Of each strip of a patch with a neck the mean of the laws of its sub-patches.
@@ -652,10 +679,12 @@ contains
     end subroutine find_mean_laws
 
     !> March the strips of a patch with a neck, each by its law.
-    pure subroutine march_by_means(strips, first, last, rolling, mean, sums, field, per_strip)
+    pure subroutine march_by_means(strips, first, last, rolling, friction, mean, sums, field, &
+                                   per_strip)
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
         type(patch_law_t), intent(in) :: mean(first:last)
         type(march_sums_t), intent(inout) :: sums
         type(tangential_field_t), intent(inout), optional :: field
@@ -668,8 +697,8 @@ contains
             if (i <= last) then
                 if (same_law(mean(i), mean(begin))) cycle
             end if
-            call march_strips(mean_law(mean(begin)), strips, begin, i - 1, rolling, sums, &
-                              field, per_strip)
+            call march_strips(mean_law(mean(begin)), strips, begin, i - 1, rolling, friction, &
+                              sums, field, per_strip)
             begin = i
         end do
     end subroutine march_by_means

@@ -26,7 +26,6 @@ module faststrip_tangential_strip_march
     !> What all strips of a contact share.
     type :: rolling_t
         real(wp) :: mu = 0.0_wp      !! coefficient of friction, static; a mean, if it varies
-        type(friction_t) :: friction !! how it falls with slip and temperature; its table over y
         type(creepage_t) :: creepage !! about the reference point
         type(creepage_t) :: given    !! the same without what other patches do
         type(creepage_t) :: plane    !! of all of a contact whose strips have their own (S15)
@@ -113,11 +112,14 @@ module faststrip_tangential_strip_march
 contains
 
     !> March strips under one law and add their forces.
-    pure subroutine march_strips(law, strips, first, last, rolling, sums, field, per_strip)
+    pure subroutine march_strips(law, strips, first, last, rolling, friction, sums, field, &
+                                 per_strip)
         type(patch_law_t), intent(in) :: law         !! of the patch
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         integer, intent(in) :: first, last           !! of its strips
         type(rolling_t), intent(in) :: rolling       !! what all strips share
+        type(friction_t), intent(in) :: friction
+            !! how it falls with slip and temperature; its table over y
         type(march_sums_t), intent(inout) :: sums    !! are added to
         type(tangential_field_t), intent(inout), optional :: field !! gets the elements
         type(strip_forces_t), intent(inout), optional :: per_strip !! gets the strips' sums
@@ -132,6 +134,8 @@ contains
         points = rolling%points
         bound%n = points
         bound%alpha = law%alpha
+        ! A vector of powers has other digits than each of them.
+        !GCC$ NOVECTOR
         do i = 1, (points + 1)/2
             t = real(points - 2*i + 1, wp)/points
             bound%thickness(i) = (1.0_wp - t*t)**law%exponent
@@ -150,12 +154,12 @@ contains
         off_centre = off_centre/(0.25_wp*pi*points)
         lanes = most_lanes
         if (is_pressed(rolling)) lanes = pressed_lanes
-        if (falls_when_hot(rolling%friction)) lanes = 1
+        if (falls_when_hot(friction)) lanes = 1
         do i = first, last, lanes
-            call fill_block(law, strips, i, min(i + lanes - 1, last), rolling, block)
+            call fill_block(law, strips, i, min(i + lanes - 1, last), rolling, friction, block)
             if (is_pressed(rolling)) call find_pressed(law, strips, rolling, block, pressed)
-            if (falls(rolling%friction)) then
-                call march_falling(block, bound, strips, rolling, pressed, sums, field)
+            if (falls(friction)) then
+                call march_falling(block, bound, strips, rolling, friction, pressed, sums, field)
             else
                 call march(block, bound, strips, rolling, pressed, field)
             end if
@@ -204,11 +208,12 @@ contains
 
     !> March as `march` does, with a bound that falls with slip (S12); afterwards the bound of the
     !> block is the mean of what it was.
-    pure subroutine march_falling(block, bound, strips, rolling, pressed, sums, field)
+    pure subroutine march_falling(block, bound, strips, rolling, friction, pressed, sums, field)
         type(block_t), intent(inout) :: block
         type(bound_t), intent(in) :: bound
         type(contact_strips_t), intent(in) :: strips
         type(rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
         type(pressed_t), intent(inout) :: pressed
         type(march_sums_t), intent(inout) :: sums
         type(tangential_field_t), intent(inout), optional :: field
@@ -233,8 +238,8 @@ contains
             if (is_pressed(rolling)) call press(block, t + 0.5_wp*step, pressed)
             call advance(block, t, step, bound_at(bound, i, t))
             all = all + bound_at(bound, i, t)
-            call follow_slip(block, rolling, i, bound_at(bound, i, t), ahead_x, ahead_y, &
-                             fall, sums)
+            call follow_slip(block, rolling, friction, i, bound_at(bound, i, t), ahead_x, &
+                             ahead_y, fall, sums)
             if (is_pressed(rolling)) call note_pressed(block, pressed)
             if (present(field)) call note_elements(block, strips, ahead_x, ahead_y, i, n, field)
         end do
@@ -246,9 +251,10 @@ contains
 
     !> Let the bound of an element fall to that of its slip and temperature, and what lies on it
     !> with it (S12).
-    pure subroutine follow_slip(block, rolling, i, bound, ahead_x, ahead_y, fall, sums)
+    pure subroutine follow_slip(block, rolling, friction, i, bound, ahead_x, ahead_y, fall, sums)
         type(block_t), intent(inout) :: block
         type(rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
         integer, intent(in) :: i      !! element
         real(wp), intent(in) :: bound !! over mu p0
         real(wp), intent(in) :: ahead_x(:), ahead_y(:) !! traction of the element ahead, MPa
@@ -260,13 +266,13 @@ contains
         integer :: k
 
         t = real(rolling%points - 2*i + 1, wp)/rolling%points
-        is_hot = falls_when_hot(rolling%friction)
+        is_hot = falls_when_hot(friction)
         do k = 1, block%lanes
             if (is_hot) fall%heat(i) = 0.0_wp
             if (block%excess(k) > 0.0_wp) then
                 slip = block%f(k)*hypot(block%px(k), block%py(k))/block%step(k)
-                share = falling_share(rolling%friction, slip)
-                if (is_hot) share = share*hot_share_of(rolling, fall%heat(:i - 1), &
+                share = falling_share(friction, slip)
+                if (is_hot) share = share*hot_share_of(friction, fall%heat(:i - 1), &
                     2.0_wp*block%half_length(k)/rolling%points, &
                     share/fall%left(k)*heat_of(block, k, ahead_x(k), ahead_y(k)))
                 part = share/fall%left(k)
@@ -292,19 +298,17 @@ contains
     end subroutine follow_slip
 
     !> The share of the coefficient that is left of an element by its temperature.
-    pure real(wp) function hot_share_of(rolling, ahead, length, heat) result(share)
-        type(rolling_t), intent(in) :: rolling
+    pure real(wp) function hot_share_of(friction, ahead, length, heat) result(share)
+        type(friction_t), intent(in) :: friction
         real(wp), intent(in) :: ahead(:) ! heat of the steps before, N/mm^2
         real(wp), intent(in) :: length   ! of an element, mm
         real(wp), intent(in) :: heat     ! of this one, if it were cold
 
         real(wp) :: gain
 
-        associate (friction => rolling%friction)
-            gain = friction%heat%gain*sqrt(length)
-            share = hot_share(friction, friction%heat%shared + gain*rise_by_steps(ahead), &
-                              gain*own_weight(size(ahead) + 1)*heat)
-        end associate
+        gain = friction%heat%gain*sqrt(length)
+        share = hot_share(friction, friction%heat%shared + gain*rise_by_steps(ahead), &
+                          gain*own_weight(size(ahead) + 1)*heat)
     end function hot_share_of
 
     !> Heat of the step to an element that slides, over its area, as `note_elements` has it, N/mm^2.
@@ -418,21 +422,24 @@ contains
     end subroutine add_block
 
     !> The static coefficient of a strip.
-    pure real(wp) function strip_mu(strips, k, rolling)
+    pure real(wp) function strip_mu(strips, k, mu, friction)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         integer, intent(in) :: k                     !! of its strips
-        type(rolling_t), intent(in) :: rolling       !! its friction
+        real(wp), intent(in) :: mu                   !! where there is no table
+        type(friction_t), intent(in) :: friction     !! its table
 
-        strip_mu = mean_mu_between(rolling%friction%table, rolling%mu, strips%y_left(k), &
-                                   strips%y_right(k))
+        strip_mu = mu
+        if (friction%table%n > 0) strip_mu = mean_mu_between(friction%table, mu, &
+                                                             strips%y_left(k), strips%y_right(k))
     end function strip_mu
 
     !> The strip numbers `first` to `last` as lanes; those without load or capacity are left out.
-    pure subroutine fill_block(law, strips, first, last, rolling, block)
+    pure subroutine fill_block(law, strips, first, last, rolling, friction, block)
         type(patch_law_t), intent(in) :: law
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: first, last
         type(rolling_t), intent(in) :: rolling
+        type(friction_t), intent(in) :: friction
         type(block_t), intent(out) :: block
 
         real(wp) :: flexibility, stiffness, offset, cksi, mu
@@ -444,7 +451,7 @@ contains
         do i = first, last
             associate (p0 => strips%p0(i), xd => strips%half_length(i), &
                        width => strips%y_right(i) - strips%y_left(i))
-                mu = strip_mu(strips, i, rolling)
+                mu = strip_mu(strips, i, rolling%mu, friction)
                 if (mu*strip_load(p0, xd, width) <= nothing) cycle
                 k = block%n + 1
                 block%n = k

@@ -11,7 +11,7 @@ module faststrip_wheelset_solve
     use faststrip_base_material, only: combined_shear_modulus
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      join_limitations, number_text, st_bad_argument, &
-                                     st_workspace_too_small, st_target_missed
+                                     st_workspace_too_small, st_target_missed, st_beyond_adhesion
     use faststrip_contact_case, only: contact_case_t, keeps_elements
     use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
@@ -228,7 +228,8 @@ contains
         type(wheelset_result_t), intent(inout) :: result       !! of the wheels asked for
         type(status_t), intent(out) :: status
             !! `st_bad_argument`, `st_workspace_too_small`, `st_no_contact`, `st_no_convergence`,
-            !! those of contacts; `st_target_missed`: the force jumps over the load
+            !! `st_beyond_adhesion`, those of contacts; `st_target_missed`: the force jumps over
+            !! the load
 
         if (demand%axle_moment_is_given) then
             call solve_for_axle_moment(model, workspace, state, demand, result, status)
@@ -310,7 +311,7 @@ contains
         if (abs(figures%moment - demand%axle_moment) <= jump_of_moment*figures%bound) return
         workspace%has_last = .false.
         result%wheel%n = 0
-        call set_status(status, st_bad_argument, 'the moment about the axle must not be above ' &
+        call set_status(status, st_beyond_adhesion, 'the moment about the axle must not be above ' &
                         // 'what adhesion carries, ' // trim(number_text(largest)) // &
                         ' N mm, got ' // trim(number_text(demand%axle_moment)) // ' N mm')
     end subroutine solve_for_axle_moment

@@ -7,6 +7,7 @@ module faststrip_files_profile_taken
     use faststrip_geometry_profile, only: profile_t, make_curve_profile
     use faststrip_geometry_touchable, only: touchable_t, touchable_words, body_wheel, body_rail
     use faststrip_files_profile, only: read_profile, profile_file_t, profile_options_t
+    use faststrip_files_profile_standard, only: standard_profile
     use faststrip_files_profile_cleaning, only: cleaning_t, check_cleaning, clean
     implicit none
     private
@@ -25,21 +26,24 @@ module faststrip_files_profile_taken
 
 contains
 
-    !> Take a profile from a file.
+    !> Take a profile from a file, or a standard one.
     subroutine take_profile(path, options, cleaning, taken, status)
-        character(len=*), intent(in) :: path           !! name of the file
+        character(len=*), intent(in) :: path           !! name of the file, or of the profile
         type(profile_options_t), intent(in) :: options !! what the user says about it
         type(cleaning_t), intent(in) :: cleaning       !! what is to be done
         type(taken_profile_t), intent(out) :: taken    !! the profile
         type(status_t), intent(out) :: status          !! those of `read_profile`, `clean`,
                                                        !! `make_curve_profile`, with the file
 
+        logical :: is_standard
+
         taken%words = ''
         taken%done = ''
         allocate (taken%part%point(0))
         call check_cleaning(cleaning, status)
         if (is_error(status)) return
-        call read_profile(path, options, taken%points, status)
+        call standard_profile(path, taken%points, is_standard)
+        if (.not. is_standard) call read_profile(path, options, taken%points, status)
         if (is_error(status)) return
         call clean(cleaning, taken%points, taken%done, status)
         if (.not. is_error(status)) call judge(cleaning, taken, status)

@@ -10,7 +10,6 @@ module faststrip_contact_method_fastsim
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_method_asked, only: asked_field
-    use faststrip_contact_method_heat, only: heated_friction
     use faststrip_contact_method_march_errors, only: left_out_t, estimate_march
     use faststrip_contact_methods, only: tangential_table, tangential_fastsim, &
                                          tangential_fastsim_elliptic, tangential_fastsim_weighted
@@ -60,17 +59,17 @@ contains
 
         variant%elliptic_bound = self%elliptic_bound
         variant%single_flexibility = self%single_flexibility
-        variant%friction = heated_friction(workspace, case)
         material = softened(case%material, workspace%friction)
         associate (nx => case%methods%fastsim_nx, ny => case%methods%fastsim_ny)
             if (workspace%is_ellipse) then
                 call fastsim_solve(workspace%hertz, material, workspace%mu, case%creepage, nx, ny, &
                                    result%tangential, status, asked_field(workspace, case), &
-                                   variant)
+                                   variant, workspace%friction)
             else
                 call fastsim_strips_solve(workspace%strips, material, workspace%mu, &
                                           case%creepage, nx, ny, result%tangential, status, &
-                                          asked_field(workspace, case), variant)
+                                          asked_field(workspace, case), variant, &
+                                          workspace%friction)
             end if
         end associate
     end subroutine solve_by_fastsim

@@ -8,7 +8,6 @@ module faststrip_contact_method_faststrip
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_method_asked, only: asked_field, asked_strip_forces
-    use faststrip_contact_method_heat, only: heated_friction
     use faststrip_contact_method_march_errors, only: left_out_t, estimate_march
     use faststrip_contact_methods, only: tangential_table, tangential_faststrip, &
                                          tangential_faststrip_plain
@@ -47,7 +46,7 @@ contains
             workspace%strips, softened(case%material, workspace%friction), workspace%mu, &
             case%creepage, case%methods%points_per_strip, result%tangential, status, &
             asked_field(workspace, case), asked_strip_forces(workspace, case), &
-            self%is_corrected, heated_friction(workspace, case))
+            self%is_corrected, workspace%friction)
     end subroutine solve_by_faststrip
 
     !> Error estimates of its forces.

@@ -4,9 +4,11 @@
 !> Each strip, row or element has the coefficient of its place where the method marches or solves
 !> element by element; what has one coefficient for a contact takes the mean by load.
 module faststrip_contact_method_friction
+    use faststrip_base_friction, only: falls_when_hot
     use faststrip_base_friction_table, only: friction_table_t, mean_mu_between, over_contact, &
                                              over_rail, over_angle, most_places
     use faststrip_base_kinds, only: wp
+    use faststrip_base_thermal, only: heating
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inclination
     use faststrip_normal_strips, only: contact_strips_t, strip_load
     use faststrip_contact_case, only: contact_case_t
@@ -35,6 +37,8 @@ contains
         workspace%mu = case%mu
         workspace%mu_spread = 0.0_wp
         workspace%friction = case%friction
+        if (case%asked%temperatures .or. falls_when_hot(case%friction)) &
+            workspace%friction%heat = heating(case%thermal, case%friction%speed)
         if (case%friction%table%n == 0) return
         call place_table(workspace%solver%curve, workspace%strips, workspace%friction%table)
         workspace%mu = 0.0_wp

@@ -3,15 +3,14 @@ module faststrip_contact_method_heat
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error, add_limitation, number_text, &
                                      st_under_resolved
-    use faststrip_base_friction, only: friction_t, falls_when_hot
-    use faststrip_base_thermal, only: heating, diffusivity
+    use faststrip_base_thermal, only: diffusivity
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_tangential_heat_flash, only: find_temperatures
     implicit none
     private
 
-    public :: find_heat, heated_friction
+    public :: find_heat
 
     ! Given: V a/(2 kappa) from which heat flows in depth only (Ertz and Knothe 2002): conduction
     ! along the surface takes off 0.13 % there, 6 % at 1.
@@ -19,7 +18,7 @@ module faststrip_contact_method_heat
 
 contains
 
-    !> Find the temperatures of a contact, if they are asked for.
+    !> Find the temperatures of a contact.
     subroutine find_heat(workspace, case, result, status)
         type(workspace_t), intent(inout) :: workspace   !! with the solution; its field gets them
         type(contact_case_t), intent(in) :: case        !! bodies and rolling speed, checked
@@ -31,10 +30,8 @@ contains
         type(status_t) :: found
         real(wp) :: peclet
 
-        workspace%field%has_temperature = .false.
-        if (.not. (case%asked%temperatures .and. result%has_forces)) return
-        workspace%heat = heating(case%thermal, case%friction%speed)
-        call find_temperatures(workspace%field, workspace%heat, result%flash, found)
+        if (.not. result%has_forces) return
+        call find_temperatures(workspace%field, workspace%friction%heat, result%flash, found)
         if (is_error(found)) then
             status = found
             return
@@ -46,13 +43,4 @@ contains
             'temperatures leave out conduction along the surface: V a/(2 kappa) must be at ' // &
             'least 10 for that, is ' // number_text(peclet))
     end subroutine find_heat
-
-    !> The friction of a case, with what its bodies do to it where it falls with temperature.
-    pure type(friction_t) function heated_friction(workspace, case) result(friction)
-        type(workspace_t), intent(in) :: workspace !! its friction
-        type(contact_case_t), intent(in) :: case   !! its bodies, checked
-
-        friction = workspace%friction
-        if (falls_when_hot(friction)) friction%heat = heating(case%thermal, friction%speed)
-    end function heated_friction
 end module faststrip_contact_method_heat

@@ -12,7 +12,6 @@ module faststrip_contact_method
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
                                      st_bad_argument
-    use faststrip_base_thermal, only: heating_t
     use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_simple_hertz, only: hertz_t
     use faststrip_normal_strip, only: strip_workspace_t
@@ -130,7 +129,8 @@ module faststrip_contact_method
         integer :: solved_by = 0          !! normal method of the last contact; 0: none was solved
         real(wp) :: mu = 0.0_wp           !! coefficient of friction of its forces; the mean by load
         real(wp) :: mu_spread = 0.0_wp    !! standard deviation over it, by load
-        type(friction_t) :: friction      !! of its forces; a table is one over the contact
+        type(friction_t) :: friction
+            !! of its forces; a table is one over the contact, `heat` is known where it counts
         type(tangential_field_t) :: field !! its elements, if asked for; see `reserve_contact_field`
         type(strip_forces_t) :: strip_forces !! sums over its strips, if asked for
         type(loads_t) :: loads            !! what its stresses follow from; see `take_loads`
@@ -138,7 +138,6 @@ module faststrip_contact_method
             !! why there is no wear of the last contact in spite of a law; or ok
         type(strip_wear_t) :: strip_wear  !! of the last contact, if there is a law
         type(found_motion_t) :: found      !! of the last contact, if forces were given
-        type(heating_t) :: heat           !! of it, if its field has temperatures
         type(contact_methods_t) :: methods !! that the last contact was solved by
         type(auto_steps_t) :: steps        !! of the last contact, if by auto
         real(wp) :: load_factor = 1.0_wp   !! of pressures over the case's load, see `demand_of`
