@@ -43,9 +43,10 @@ module faststrip_wheelset_wheel
     ! Tuned [1]: how high gaps of neighbours are sampled, over the overlap. Origin: patches end
     ! below the overlap.
     real(wp), parameter :: near_height = 1.5_wp
-    ! Tuned [1]: how exact heights of strips are that do not stand side by side, over the overlap.
-    ! Origin: forces follow them by as much, far below what profiles leave open.
-    real(wp), parameter :: places_tolerance = 1.0e-7_wp
+    ! Tuned [1]: how exact heights of strips are that do not stand side by side, over the overlap
+    ! and the strips' last step. Origin: chosen: forces follow them by as much, far below what
+    ! profiles leave open.
+    real(wp), parameter :: places_share = 50.0_wp
     ! Tuned [1]: largest part of what is missed that a step takes. Origin: safeguard: most take 0.7
     ! to 1.3.
     real(wp), parameter :: most_part = 3.0_wp
@@ -384,8 +385,8 @@ contains
             gap%tilt(:n, 1) = 0.0_wp
             gap%bend(:n, 1) = 0.0_wp
             part = 1.0_wp
-            tolerance = places_tolerance
-            if (case%stays) tolerance = case%strip_tolerance
+            tolerance = case%strip_tolerance
+            if (.not. case%stays) tolerance = places_share*tolerance
             if (case%warm_start .or. case%stays) then
                 call find_miss()
                 call add_miss()
