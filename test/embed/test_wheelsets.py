@@ -385,7 +385,7 @@ class Interfaces(HostTest):
         library, point = parts.library, ctypes.byref
         wheels = (parts.Points * 2)(parts.points_of("wheel", "s1002", "wheel"))
         rails = (parts.Points * 2)(parts.points_of("rail", "60e1", "rail"))
-        case = parts.new_case("strip", "faststrip", 9, 15, (50, 50), False, 0.1, 0.1)
+        case = parts.new_case("strip", "faststrip", 9, 15, (50, 50), False, 0.1, 0.1, False)
         for size in (0, 80, 88, 95, 96, 100, 104):
             setup, handle = parts.Setup(gauge=1.0), ctypes.c_void_p()
             text = ctypes.create_string_buffer(256)

@@ -44,7 +44,7 @@ module faststrip_normal_strip_converge
     real(wp), parameter :: after_look = 5.0_wp
     ! Tuned [steps; evaluations; factors]: most of each. Origin: safeguards: some ten, three and two
     ! do.
-    integer, parameter :: max_steps = 60, max_evaluations = 16, max_factorings = 25
+    integer, parameter :: max_steps = 60, max_evaluations = 8, max_factorings = 25
     ! Tuned [1]: Error of a solution by linearised coefficients over the square of what has
     ! changed. Origin: measured: .01 in the median, .02 to .1 in 95 %.
     real(wp), parameter :: second_order = 0.05_wp
