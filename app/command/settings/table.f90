@@ -276,7 +276,7 @@ module faststrip_command_settings_table
                   'the same of est_err_Fx, _Fy, _Mz', range=above_0, default='0.1', &
                   option='--force-limit', value_name='E'), &
         setting_t('numerics', 'curved', a_flag, &
-                  'strips on the curved surface, each with its own plane', default='.false.', &
+                  'each strip in a plane of its own', default='.false.', &
                   option='--curved'), &
         setting_t('numerics', 'subsurface', a_flag, &
                   'find the largest von Mises stress of the rail', default='.false.', &
