@@ -241,17 +241,21 @@ contains
     end subroutine name_limitations
 
     !> Add to a status that surfaces turn or the gap is steep in the contact: `st_conformal`.
-    pure subroutine name_conformal(curve, strips, status)
+    pure subroutine name_conformal(curve, strips, status, is_ellipse)
         type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
         type(contact_strips_t), intent(in) :: strips !! its solution
         type(status_t), intent(inout) :: status      !! limitations so far, no error
+        logical, intent(in), optional :: is_ellipse
+            !! if present the strips at the ends and in the middle are looked at alone
 
         character(len=message_length) :: words
         real(wp) :: h_left, h_right, inv2r, slope, turn
-        integer :: k
+        integer :: k, every
 
         slope = 0.0_wp
-        do k = 1, strips%n
+        every = 1
+        if (present(is_ellipse)) every = max((strips%n - 1)/2, 1)
+        do k = 1, strips%n, every
             call gap_at(curve, strips%y_left(k), h_left, inv2r)
             call gap_at(curve, strips%y_right(k), h_right, inv2r)
             slope = max(slope, abs(h_right - h_left)/(strips%y_right(k) - strips%y_left(k)))

@@ -64,7 +64,7 @@ contains
             call hertz_strips(hertz, ellipse_strips(case%methods), workspace%strips, status)
             if (is_error(status)) return
             workspace%is_ellipse = .true.
-            call name_conformal(curve, workspace%strips, status)
+            call name_conformal(curve, workspace%strips, status, .true.)
             call name_steps(curve, hertz%penetration, workspace%strips, status)
         end associate
     end subroutine solve_by_hertz
