@@ -379,6 +379,17 @@ class Interfaces(HostTest):
             self.assertAlmostEqual(found.pmax / float(row["pmax_MPa"]), 1.0,
                                    delta=0.04 if row["case"] == "shared_2" else 0.01)
 
+    def test_strips_slide_and_turn_at_their_places(self):
+        # Throat and tread together, all of it sliding: sums over the pressures of the exact gap.
+        wheelset = self.import_package().Wheelset(estimate=False)
+        state = {"y": 6.5, "z": -0.6469, "yaw": 0.02, "roll": 0.0, "speed": 2e4, "wheels": "right"}
+        for rate, fx, fy, mz in ((0.0, -9436.0, -21571.0, 69070.0),
+                                 (0.5, -16211.0, -16650.0, 38522.0)):
+            found = wheelset.solve(**state, yaw_rate=rate).contacts[0]
+            self.assertLess(max(abs(found.fx - fx), abs(found.fy - fy)), 0.012 * 0.3 * found.load)
+            self.assertAlmostEqual(found.mz / mz, 1.0, delta=0.04)
+            self.assertGreater(found.friction_power, 0.0)
+
     def test_a_setup_of_another_header_is_refused(self):
         package = self.import_package()
         parts = package._wheelset

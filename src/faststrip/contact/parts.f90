@@ -189,6 +189,7 @@ contains
         call start_lap(case%asked%times, lap)
         call method%solve(workspace, case, result%normal, status)
         if (is_error(status)) return
+        workspace%strips%has_places = .false.
         call add_lap(case%asked%times, lap, result%times%normal_us, result%times%normal_cpu_us)
         call lay_strips(workspace%solver%curve, case, workspace%strips)
         if (case%curved) then

@@ -18,7 +18,7 @@ module faststrip_normal_strip_places
     implicit none
     private
 
-    public :: find_displaced
+    public :: find_displaced, value_between
 
     ! Tuned [places]: across the overlap. Origin: measured: with twice as many
     ! loads change by 6e-4 at most, and no less with four times.
@@ -61,14 +61,15 @@ contains
         last = min(last + at, y(size(y)))
         place = [(first + (last - first)*i/(n_places - 1), i=0, n_places - 1)]
         do i = 1, n_places
-            ahead(i) = between(x0, place(i))
-            tip(i) = between(reach, place(i))
+            ahead(i) = value_between(y, x0, place(i))
+            tip(i) = value_between(y, reach, place(i))
         end do
         lower = 0.0_wp
         curved = 0.0_wp
         do s = 1, strips%n
             factor = compliance*strips%p0(s)
-            apart = ahead - between(x0, 0.5_wp*(strips%y_left(s) + strips%y_right(s)))
+            apart = ahead - value_between(y, x0, &
+                                          0.5_wp*(strips%y_left(s) + strips%y_right(s)))
             call find_column(0.0_wp*apart, side_by_side)
             call find_column(apart, shifted)
             call find_column(tip, there)
@@ -101,16 +102,6 @@ contains
             if (h(next) > overlap) rest = abs(y(next) - y(i))*(overlap - h(i))/(h(next) - h(i))
         end function rest
 
-        ! A value of the gap at a place.
-        pure real(wp) function between(value, at)
-            real(wp), intent(in) :: value(:), at
-
-            integer :: i
-
-            i = interval_of(y, at)
-            between = value(i) + (value(i + 1) - value(i))*(at - y(i))/(y(i + 1) - y(i))
-        end function between
-
         ! The influence of strip s.
         pure subroutine find_column(x, column)
             real(wp), intent(in) :: x(n_places)
@@ -122,4 +113,16 @@ contains
                                            strips%y_right(s), x, place, column, d_x, d_half_length)
         end subroutine find_column
     end subroutine find_displaced
+
+    !> A value at a place between points, linearly.
+    pure real(wp) function value_between(y, value, at) result(between)
+        real(wp), intent(in) :: y(:)     !! points, increasing, mm
+        real(wp), intent(in) :: value(:) !! there
+        real(wp), intent(in) :: at       !! the place, within the points, mm
+
+        integer :: i
+
+        i = interval_of(y, at)
+        between = value(i) + (value(i + 1) - value(i))*(at - y(i))/(y(i + 1) - y(i))
+    end function value_between
 end module faststrip_normal_strip_places

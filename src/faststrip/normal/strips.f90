@@ -36,6 +36,8 @@ module faststrip_normal_strips
                                             !! part, beside x = 0 under yaw?
         real(wp), allocatable :: inclination(:) !! of that plane, if it has, rad
         real(wp), allocatable :: depth(:)       !! of the middle below the plane of the contact, mm
+        logical :: has_places = .false.         !! do they not stand side by side?
+        real(wp), allocatable :: x0(:)          !! if so: where their middles are along x, mm
     end type contact_strips_t
 
 contains
@@ -50,6 +52,7 @@ contains
         strips%n = 0
         strips%n_patches = 0
         strips%is_curved = .false.
+        strips%has_places = .false.
         if (capacity < 1) then
             call set_status(status, st_bad_argument, 'capacity for strips must be at least ' &
                             // '1, got ' // count_text(capacity))
@@ -58,15 +61,16 @@ contains
         if (allocated(strips%p0)) then
             if (size(strips%p0) == capacity) return
             deallocate (strips%y_left, strips%y_right, strips%half_length, strips%p0, &
-                        strips%patch, strips%inclination, strips%depth)
+                        strips%patch, strips%inclination, strips%depth, strips%x0)
         end if
         allocate (strips%y_left(capacity), strips%y_right(capacity), &
                   strips%half_length(capacity), strips%p0(capacity), &
-                  strips%inclination(capacity), strips%depth(capacity), source=0.0_wp)
+                  strips%inclination(capacity), strips%depth(capacity), strips%x0(capacity), &
+                  source=0.0_wp)
         allocate (strips%patch(capacity), source=0)
     end subroutine reserve_strips
 
-    !> Copy strips into others that have the capacity; as strips of one plane.
+    !> Copy strips into others that have the capacity; as strips of one plane, side by side.
     pure subroutine copy_strips(from, to)
         type(contact_strips_t), intent(in) :: from  !! a normal solution
         type(contact_strips_t), intent(inout) :: to !! reserved for as many strips
@@ -75,6 +79,7 @@ contains
             to%n = n
             to%n_patches = from%n_patches
             to%is_curved = .false.
+            to%has_places = .false.
             to%y_left(:n) = from%y_left(:n)
             to%y_right(:n) = from%y_right(:n)
             to%half_length(:n) = from%half_length(:n)
@@ -95,6 +100,7 @@ contains
             strips%patch(:n) = strips%n_patches + 1 - strips%patch(:n)
             if (strips%is_curved) call reverse_negated(strips%inclination(:n))
             if (strips%is_curved) call reverse(strips%depth(:n))
+            if (strips%has_places) call reverse(strips%x0(:n))
         end associate
     end subroutine mirror_strips
 

@@ -72,7 +72,8 @@
 !>   for it. What it changes of the pressures (Goodman) and of S10 is left out and estimated.
 !> - **S15** **Curved surface**: strips that have their own planes (`contact_strips_t`) have their
 !>   own rigid slip and spin (`strip_slip`). A patch rolls with their mean by load, each strip has
-!>   the rest besides; what other patches do (S11) is along the plane of the contact.
+!>   the rest besides; what other patches do (S11) is along the plane of the contact. Strips that
+!>   do not stand side by side have the slip that spin gives them at their places along x.
 !>
 !> `patch_law` has what the ellipse says of the strips, `strip_march` the march.
 !>
@@ -188,7 +189,7 @@ contains
         rolling = patch_rolling_t(mu=mu, creepage=creepage, given=creepage, plane=creepage, &
                                   points=points_per_strip, mu_in_slip=mu, &
                                   pressure_slip=slip_by_pressure(material), &
-                                  plane_counts=strips%is_curved)
+                                  plane_counts=strips%is_curved .or. strips%has_places)
         if (present(with_fit)) rolling%is_corrected = with_fit
         if (present(friction)) then
             if (falls_when_hot(friction) .and. points_per_strip > most_hot_points) then
@@ -294,7 +295,7 @@ contains
             last = patch_end(strips, first)
             induced%mu = patch_mu(strips, first, last, rolling, friction)
             induced%mu_in_slip = induced%mu
-            if (strips%is_curved) then
+            if (rolling%plane_counts) then
                 induced%given = patch_motion(strips, first, last, rolling%plane)
                 induced%creepage = induced%given
             end if

@@ -335,11 +335,13 @@ contains
         integer, intent(in) :: i, n                    !! element, elements of a strip
         type(tangential_field_t), intent(inout) :: field
 
-        real(wp) :: t, x, length, heat, lambda
+        real(wp) :: t, x, place, length, heat, lambda
         integer :: k, state
 
         t = real(n - 2*i + 1, wp)/n
+        place = 0.0_wp
         do k = 1, block%n
+            if (strips%has_places) place = strips%x0(block%strip(k))
             associate (px => block%px(k), py => block%py(k))
                 x = block%half_length(k)*t
                 length = 2.0_wp*block%half_length(k)/n
@@ -353,7 +355,7 @@ contains
                                                          + (block%rigid_y(k) + x*block%spin(k))*py)
                     lambda = max(heat, 0.0_wp)/(length*(px*px + py*py))
                 end if
-                call put_element(field, field%n + (k - 1)*n + i, x, block%y(k), &
+                call put_element(field, field%n + (k - 1)*n + i, x + place, block%y(k), &
                                  [length, block%cell(k)], &
                                  strips%p0(block%strip(k))*sqrt(1.0_wp - t*t), px, py, &
                                  -lambda*px, -lambda*py, state)
@@ -373,13 +375,15 @@ contains
 
         type(tangential_result_t) :: full
         type(creepage_t) :: creepage, own
-        real(wp) :: used, area, fx, fy, mz
+        real(wp) :: used, area, fx, fy, mz, place
         integer :: k
 
         creepage = rolling%creepage
+        place = 0.0_wp
         associate (result => sums%result, points => rolling%points)
             do k = 1, block%n
                 if (rolling%plane_counts) then
+                    if (strips%has_places) place = strips%x0(block%strip(k))
                     own = own_slip(strips, block%strip(k), block%y(k), rolling)
                     creepage = creepage_t( &
                         rolling%creepage%cksi + own%cksi + block%y(k)*own%cphi, &
@@ -402,12 +406,13 @@ contains
                 end if
                 result%fx = result%fx + fx
                 result%fy = result%fy + fy
-                result%mz = result%mz + mz
+                result%mz = result%mz + mz + place*fy
                 area = points*block%cell(k)
                 sums%covered = sums%covered + area
                 sums%pressed = sums%pressed + block%cell(k)*block%pressed(k)
                 if (rolling%plane_counts) sums%pressed = sums%pressed &
-                    + fx*(own%cksi + block%y(k)*own%cphi) + fy*own%ceta + mz*own%cphi
+                    + fx*(own%cksi + block%y(k)*own%cphi) &
+                    + fy*(own%ceta - place*rolling%plane%cphi) + mz*own%cphi
                 sums%stuck = sums%stuck + area*(block%sticking(k)/points)**2
                 if (.not. present(per_strip)) cycle
                 associate (i => block%strip(k))
@@ -550,23 +555,28 @@ contains
     !> strips lie there: the slip has no part along the normal and is, along the strip,
     !>
     !>     ceta/(cos a + cphi/pitch sin a)
+    !>
+    !> At a place x0 ahead of the others spin adds `cphi x0` across.
     pure type(creepage_t) function strip_slip(strips, k, plane) result(own)
-        type(contact_strips_t), intent(in) :: strips !! laid on a curved surface
+        type(contact_strips_t), intent(in) :: strips !! laid on a curved surface, or with places
         integer, intent(in) :: k                     !! one of them
         type(creepage_t), intent(in) :: plane        !! of the contact, about y = 0
 
         real(wp) :: sine, cosine, lost
 
+        if (strips%has_places) own%ceta = plane%cphi*strips%x0(k)
+        if (.not. strips%is_curved) return
         sine = sin(strips%inclination(k))
         ! 1 - cos a
         lost = 2.0_wp*sin(0.5_wp*strips%inclination(k))**2
         own%cksi = strips%pitch*strips%depth(k)
-        own%ceta = -plane%ceta*lost
+        own%cphi = -plane%cphi*lost - strips%pitch*sine
         if (strips%follow_outline) then
             cosine = cos(strips%inclination(k)) + plane%cphi/strips%pitch*sine
-            own%ceta = plane%ceta*((1.0_wp - cosine)/max(cosine, 0.25_wp))
+            own%ceta = own%ceta + plane%ceta*((1.0_wp - cosine)/max(cosine, 0.25_wp))
+        else
+            own%ceta = own%ceta - plane%ceta*lost
         end if
-        own%cphi = -plane%cphi*lost - strips%pitch*sine
     end function strip_slip
 
     !> Do pressures of dissimilar materials cause slip?

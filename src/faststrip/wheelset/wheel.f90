@@ -5,6 +5,7 @@ module faststrip_wheelset_wheel
     use faststrip_base_limits, only: largest_ratio, most_steps
     use faststrip_base_material, only: normal_compliance
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, add_limitation, &
+                                     join_limitations, &
                                      st_out_of_range, st_no_convergence, st_under_resolved
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, solve_contact_forces, &
@@ -16,7 +17,7 @@ module faststrip_wheelset_wheel
     use faststrip_wheelset_guide, only: needs_guide, take_guide
     use faststrip_geometry_contact_frame, only: contact_frame_t, frame_gap_t, place_frame, &
                                                 in_track, along_normal
-    use faststrip_normal_strip_places, only: find_displaced
+    use faststrip_normal_strip_places, only: find_displaced, value_between
     use faststrip_geometry_contact_yawed, only: find_frame_gap
     use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
                                           region_distance, most_regions
@@ -402,7 +403,10 @@ contains
                 if (is_error(contact%status)) return
                 lower(:n, 3) = lower(:n, 2)
                 call find_miss()
-                if (maxval(abs(lower(:n, 2))) <= tolerance*gap%overlap) return
+                if (maxval(abs(lower(:n, 2))) <= tolerance*gap%overlap) then
+                    call lay_apart()
+                    return
+                end if
                 if (pass > 1) then
                     turn = sum((lower(:n, 2) - lower(:n, 3))**2)
                     if (turn > 0.0_wp) &
@@ -417,6 +421,7 @@ contains
         if (case%stays) then
             call set_status(contact%status, st_no_convergence, not_found)
         else
+            call lay_apart()
             call add_limitation(contact%status, st_under_resolved, not_found)
         end if
 
@@ -433,6 +438,26 @@ contains
                 gap%bend(:n, 2) = gap%apart*gap%bend(:n, 2) - gap%bend(:n, 1)
             end associate
         end subroutine find_miss
+
+        ! Lay the strips at their places: their friction slides and turns there.
+        subroutine lay_apart()
+            type(status_t) :: forces
+            integer :: k
+
+            associate (strips => workspace%strips, n => gap%n)
+                do k = 1, strips%n
+                    strips%x0(k) = gap%apart*value_between(gap%y(:n), gap%x0(:n), 0.5_wp &
+                                                           *(strips%y_left(k) + strips%y_right(k)))
+                end do
+                strips%has_places = .true.
+            end associate
+            call solve_contact_forces(workspace, case, contact%figures, forces)
+            if (is_error(forces)) then
+                contact%status = forces
+            else
+                call join_limitations(contact%status, forces)
+            end if
+        end subroutine lay_apart
 
         subroutine add_miss()
             associate (n => gap%n)
