@@ -853,13 +853,16 @@ def vehicle(*words):
 
 def install_below(prefix):
     build()
-    shutil.rmtree("build/stage", ignore_errors=True)
-    fpm("stage", "src/files", "install", PROGRAM_FLAGS, "--c-flag", "-fPIC", "--prefix",
-        str(ROOT / "build/stage"), trouble="fpm install failed", twin="app")
-    if subprocess.run([sys.executable, "tools/building/install.py", "--stage", "build/stage",
-                       "--program", "bin/faststrip", "--prefix", prefix],
-                      check=False).returncode != 0:
-        raise Trouble("the installation failed")
+    with open("build/stage.lock", "w", encoding="utf-8") as lock:
+        # One installation at a time from a folder.
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        shutil.rmtree("build/stage", ignore_errors=True)
+        fpm("stage", "src/files", "install", PROGRAM_FLAGS, "--c-flag", "-fPIC", "--prefix",
+            str(ROOT / "build/stage"), trouble="fpm install failed", twin="app")
+        if subprocess.run([sys.executable, "tools/building/install.py", "--stage", "build/stage",
+                           "--program", "bin/faststrip", "--prefix", prefix],
+                          check=False).returncode != 0:
+            raise Trouble("the installation failed")
 
 
 def install(*words):

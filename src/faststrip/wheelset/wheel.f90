@@ -5,13 +5,14 @@ module faststrip_wheelset_wheel
     use faststrip_base_limits, only: largest_ratio, most_steps
     use faststrip_base_material, only: normal_compliance
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, add_limitation, &
-                                     join_limitations, &
-                                     st_out_of_range, st_no_convergence, st_under_resolved
+                                     join_limitations, st_out_of_range, st_no_convergence, &
+                                     st_under_resolved
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, solve_contact_forces, &
                                        estimate_contact, name_yield
     use faststrip_contact_method, only: workspace_t
-    use faststrip_contact_methods, only: normal_auto, normal_strip, tangential_linear
+    use faststrip_contact_methods, only: normal_auto, normal_strip, tangential_linear, &
+                                         tangential_none
     use faststrip_normal_cells_lattice, only: lend_elements
     use faststrip_geometry_gap, only: gap_t
     use faststrip_wheelset_guide, only: needs_guide, take_guide
@@ -327,6 +328,7 @@ contains
         type(wheelset_axes_t) :: axes
         type(rail_state_t) :: rail
         real(wp) :: height, place(3)
+        integer :: tangential
         logical :: warm
 
         axes = lowered_axes(workspace, lowered)
@@ -359,8 +361,13 @@ contains
         if (workspace%gap%apart > 0.0_wp .and. case%methods%normal == normal_strip &
             .and. .not. case%smoothing > 0.0_wp) then
             warm = case%warm_start
+            tangential = case%methods%tangential
+            case%methods%tangential = tangential_none
             call solve_apart(workspace%gap, workspace%contact(i), case, contact)
             case%warm_start = warm
+            case%methods%tangential = tangential
+            if (.not. is_error(contact%status)) &
+                call slide_apart(workspace%gap, workspace%contact(i), case, contact)
         else
             call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
         end if
@@ -368,7 +375,7 @@ contains
         call find_contact_force(model, axes, contact)
     end subroutine solve_one
 
-    ! A contact whose strips do not stand side by side: on a gap that follows of their pressures, by
+    ! The pressures of strips that do not stand side by side: on a gap that follows of them, by
     ! steps of which each goes as far as the last two tell (Aitken).
     subroutine solve_apart(gap, workspace, case, contact)
         type(frame_gap_t), intent(inout) :: gap
@@ -393,24 +400,21 @@ contains
                 call add_miss()
             end if
             do pass = 1, most_steps
-                lower(:n, 4) = gap%h(:n) + lower(:n, 1)
-                gap%tilt(:n, 4) = gap%slope(:n) + gap%tilt(:n, 1)
-                gap%bend(:n, 4) = gap%inv2r(:n) + gap%bend(:n, 1)
-                call set_contact_gap(workspace, gap%y(:n), lower(:n, 4), gap%bend(:n, 4), &
-                                     contact%status, gap%inclination(:n), gap%tilt(:n, 4))
+                lower(:n, 3) = gap%h(:n) + lower(:n, 1)
+                gap%tilt(:n, 3) = gap%slope(:n) + gap%tilt(:n, 1)
+                gap%bend(:n, 3) = gap%inv2r(:n) + gap%bend(:n, 1)
+                call set_contact_gap(workspace, gap%y(:n), lower(:n, 3), gap%bend(:n, 3), &
+                                     contact%status, gap%inclination(:n), gap%tilt(:n, 3))
                 if (is_error(contact%status)) return
                 call solve_contact(workspace, case, contact%figures, contact%status)
                 if (is_error(contact%status)) return
-                lower(:n, 3) = lower(:n, 2)
+                lower(:n, 4) = lower(:n, 2)
                 call find_miss()
-                if (maxval(abs(lower(:n, 2))) <= tolerance*gap%overlap) then
-                    call lay_apart()
-                    return
-                end if
+                if (maxval(abs(lower(:n, 2))) <= tolerance*gap%overlap) return
                 if (pass > 1) then
-                    turn = sum((lower(:n, 2) - lower(:n, 3))**2)
+                    turn = sum((lower(:n, 2) - lower(:n, 4))**2)
                     if (turn > 0.0_wp) &
-                        part = -part*sum(lower(:n, 3)*(lower(:n, 2) - lower(:n, 3)))/turn
+                        part = -part*sum(lower(:n, 4)*(lower(:n, 2) - lower(:n, 4)))/turn
                     part = max(1.0_wp/most_part, min(part, most_part))
                 end if
                 call add_miss()
@@ -421,7 +425,6 @@ contains
         if (case%stays) then
             call set_status(contact%status, st_no_convergence, not_found)
         else
-            call lay_apart()
             call add_limitation(contact%status, st_under_resolved, not_found)
         end if
 
@@ -439,26 +442,6 @@ contains
             end associate
         end subroutine find_miss
 
-        ! Lay the strips at their places: their friction slides and turns there.
-        subroutine lay_apart()
-            type(status_t) :: forces
-            integer :: k
-
-            associate (strips => workspace%strips, n => gap%n)
-                do k = 1, strips%n
-                    strips%x0(k) = gap%apart*value_between(gap%y(:n), gap%x0(:n), 0.5_wp &
-                                                           *(strips%y_left(k) + strips%y_right(k)))
-                end do
-                strips%has_places = .true.
-            end associate
-            call solve_contact_forces(workspace, case, contact%figures, forces)
-            if (is_error(forces)) then
-                contact%status = forces
-            else
-                call join_limitations(contact%status, forces)
-            end if
-        end subroutine lay_apart
-
         subroutine add_miss()
             associate (n => gap%n)
                 gap%lower(:n, 1) = gap%lower(:n, 1) + part*gap%lower(:n, 2)
@@ -467,6 +450,31 @@ contains
             end associate
         end subroutine add_miss
     end subroutine solve_apart
+
+    ! The forces of strips at their places, where their friction slides and turns.
+    subroutine slide_apart(gap, workspace, case, contact)
+        type(frame_gap_t), intent(in) :: gap
+        type(workspace_t), intent(inout) :: workspace ! with their pressures
+        type(contact_case_t), intent(in) :: case
+        type(wheel_contact_t), intent(inout) :: contact
+
+        type(status_t) :: forces
+        integer :: k
+
+        associate (strips => workspace%strips, n => gap%n)
+            do k = 1, strips%n
+                strips%x0(k) = gap%apart*value_between(gap%y(:n), gap%x0(:n), 0.5_wp &
+                                                       *(strips%y_left(k) + strips%y_right(k)))
+            end do
+            strips%has_places = .true.
+        end associate
+        call solve_contact_forces(workspace, case, contact%figures, forces)
+        if (is_error(forces)) then
+            contact%status = forces
+        else
+            call join_limitations(contact%status, forces)
+        end if
+    end subroutine slide_apart
 
     ! The axes of a wheelset that is lowered beyond the state of a wheel's outline.
     pure type(wheelset_axes_t) function lowered_axes(workspace, lowered) result(axes)

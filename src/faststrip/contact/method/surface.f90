@@ -55,7 +55,7 @@ contains
         type(contact_case_t), intent(in) :: case        !! is its surface curved? Its pitch
         type(contact_strips_t), intent(inout) :: strips !! get their places
 
-        real(wp) :: y, before, z
+        real(wp) :: y, z
         integer :: k
 
         strips%is_curved = case%curved .and. curve%n > 0
@@ -65,16 +65,28 @@ contains
         ! The radius along x, in the frame of the contact, is that of rolling.
         if (.not. strips%follow_outline) &
             strips%pitch = 2.0_wp*max(gap_inv2r(curve, 0.0_wp), 0.0_wp)
-        before = 0.0_wp
+        y = 0.0_wp
         z = 0.0_wp
         do k = 1, strips%n
-            y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
-            z = z + descent(curve, before, y)
-            before = y
+            call go_to_strip(curve, strips, k, y, z)
             strips%inclination(k) = gap_inclination(curve, y)
             strips%depth(k) = z
         end do
     end subroutine lay_strips
+
+    !> From a place on the surface to the middle of a strip.
+    pure subroutine go_to_strip(curve, strips, k, y, z)
+        type(gap_curve_t), intent(in) :: curve
+        type(contact_strips_t), intent(in) :: strips
+        integer, intent(in) :: k
+        real(wp), intent(inout) :: y, z ! across and below the plane of the contact, mm
+
+        real(wp) :: middle
+
+        middle = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
+        z = z + descent(curve, y, middle)
+        y = middle
+    end subroutine go_to_strip
 
     !> By how much the surface lies deeper at one place than at another, mm.
     pure real(wp) function descent(curve, y_from, y_to)
@@ -179,17 +191,15 @@ contains
         type(contact_strips_t), intent(in) :: strips
         real(wp), intent(out) :: lean, depth
 
-        real(wp) :: y, before, z, load
+        real(wp) :: y, z, load
         integer :: k
 
         lean = 0.0_wp
         depth = 0.0_wp
-        before = 0.0_wp
+        y = 0.0_wp
         z = 0.0_wp
         do k = 1, strips%n
-            y = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
-            z = z + descent(curve, before, y)
-            before = y
+            call go_to_strip(curve, strips, k, y, z)
             load = strip_load(strips%p0(k), strips%half_length(k), &
                               strips%y_right(k) - strips%y_left(k))
             lean = lean + load*sin(gap_inclination(curve, y))

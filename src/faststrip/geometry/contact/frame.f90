@@ -71,10 +71,10 @@ module faststrip_geometry_contact_frame
                                                 !! reference point, mm; of a turned gap what is left
         real(wp) :: apart = 0.0_wp              !! how far places of strips count: 0, not, to 1
         real(wp), allocatable :: reach(:)       !! half-length of a patch there, mm; if they count
-        real(wp), allocatable :: lower(:, :)    !! (n, 4) for it: what is added to h; what it
-                                                !! misses, now and before; the sum, mm
-        real(wp), allocatable :: tilt(:, :)     !! (n, 4) the same of the slope
-        real(wp), allocatable :: bend(:, :)     !! (n, 4) the same of 1/(2 R), 1/mm
+        real(wp), allocatable :: lower(:, :)    !! (n, 4) for it: what is added to h; what that
+                                                !! misses; the sum; what it missed before, mm
+        real(wp), allocatable :: tilt(:, :)     !! (n, 3) the same of the slope
+        real(wp), allocatable :: bend(:, :)     !! (n, 3) the same of 1/(2 R), 1/mm
     end type frame_gap_t
 
 contains
@@ -148,7 +148,7 @@ contains
         end if
         allocate (gap%wheel(n), gap%across(n), gap%down(n), gap%y(n), gap%h(n), gap%inv2r(n), &
                   gap%of_rail(n), gap%slope(n), gap%inclination(n), gap%x0(n), gap%reach(n), &
-                  gap%lower(n, 4), gap%tilt(n, 4), gap%bend(n, 4), source=0.0_wp)
+                  gap%lower(n, 4), gap%tilt(n, 3), gap%bend(n, 3), source=0.0_wp)
     end subroutine reserve_frame_gap
 
     !> A vector of the contact frame in the track.
