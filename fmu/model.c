@@ -333,7 +333,7 @@ static int row_of(size_t offset)
  */
 static int column_of(int i)
 {
-    return i < 4 ? i : i > 4 && i < 9 ? i - 1 : -1;
+    return i < 4 ? i : i > 4 && i < 10 ? i - 1 : -1;
 }
 
 /* The outputs on both sides of the inputs along a direction, on one where the other has no

@@ -47,7 +47,7 @@ typedef struct model {
     faststrip_wheelset *wheelset; /* null: to be made of the parameters */
     int is_elsewhere;             /* its last solution is none to start from */
     enum { UNKNOWN, KNOWN, NONE } slopes_are;
-    double slopes[2][6][8];       /* derivatives of the library at the last solution */
+    double slopes[2][6][9];       /* derivatives of the library at the last solution */
     int is_logging;
     char *resources;              /* folder, with a separator at its end */
     char *name;

@@ -706,13 +706,13 @@ int faststrip_wheelset_solve(faststrip_wheelset *wheelset, const faststrip_wheel
                              faststrip_wheelset_result *result);
 
 /* Derivatives at the last solution: derivatives[wheel][i][j], right wheel first, is that of Fx, Fy,
- * Fz (N), Mx, My, Mz (N mm), as `force` and `moment` of the result, over y, z (mm), roll, yaw (rad)
- * and y_rate, z_rate (mm/s), roll_rate, yaw_rate (rad/s); all other things stay, also where the
- * height was found for a load. A pitch rate that was left out stays that of pure rolling. Zeros of
+ * Fz (N), Mx, My, Mz (N mm), as `force` and `moment` of the result, over y, z (mm), roll, yaw
+ * (rad), y_rate, z_rate (mm/s), roll_rate, yaw_rate, pitch_rate (rad/s); all other things stay,
+ * also where the height was found for a load. A pitch rate that was left out stays that of pure rolling. Zeros of
  * a wheel that was not asked for or is in the air, and over the rates at rest without a floor of
  * the speed. Errors as faststrip_get_derivatives. */
 int faststrip_wheelset_get_derivatives(faststrip_wheelset *wheelset,
-                                       double derivatives[2][6][8]);
+                                       double derivatives[2][6][9]);
 
 /* Strips, elements, wear and fatigue of a contact of the last solution, contacts[i], as
  * faststrip_get_strips, faststrip_get_elements, faststrip_get_wear and faststrip_get_strip_wear

@@ -67,7 +67,7 @@ static long every_wheelset(void)
     faststrip_wheelset_contact contacts[FASTSTRIP_MOST_CONTACTS];
     faststrip_wheelset_result result;
     char text[FASTSTRIP_TEXT];
-    static double slopes[2][6][8];
+    static double slopes[2][6][9];
     double figures[6];
     long failures = 0;
     int i, n, status;
@@ -457,7 +457,7 @@ static void wear_errors(faststrip_workspace *workspace)
     faststrip_wheelset *wheelset = make_wheelset(0), *gone = NULL;
     faststrip_wear_law law = wear_law;
     faststrip_result result;
-    double f[6], a[400], slopes[2][6][8];
+    double f[6], a[400], slopes[2][6][9];
     char text[FASTSTRIP_TEXT];
     faststrip_wheelset_state state;
     faststrip_wheelset_demand demand;

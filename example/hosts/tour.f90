@@ -185,7 +185,7 @@ contains
         type(wheel_contact_t) :: contact
         type(wheel_strips_t) :: strips
         type(tangential_field_t) :: field
-        real(wp) :: slopes(6, 8, 2)
+        real(wp) :: slopes(6, 9, 2)
         integer :: i, side
 
         case%asked%field = .true.

@@ -78,12 +78,12 @@ static void show_parts(faststrip_wheelset *wheelset, int k)
 /* Columns of the derivatives, one by one. */
 static void show_derivatives(faststrip_wheelset *wheelset)
 {
-    double d[2][6][8], column[6];
+    double d[2][6][9], column[6];
     int status = faststrip_wheelset_get_derivatives(wheelset, d), side, i, j;
 
     printf("derivatives %d\n", status);
     for (side = 0; side < 2 && status < FASTSTRIP_FIRST_ERROR; side++) {
-        for (j = 0; j < 8; j++) {
+        for (j = 0; j < 9; j++) {
             for (i = 0; i < 6; i++) column[i] = d[side][i][j];
             show(6, column);
         }

@@ -110,12 +110,12 @@ C     One contact, in the rows of the other languages' programs.
 C     Columns of the derivatives, one by one.
       SUBROUTINE SLOPES(IWORK)
       INTEGER IWORK(8), I, J, K, INFO
-      DOUBLE PRECISION D(6, 8, 2)
+      DOUBLE PRECISION D(6, 9, 2)
       CALL FSWDRV(IWORK, D, INFO)
       WRITE (*, '(A, 1X, I0)') 'derivatives', INFO
       IF (INFO .GE. 100) RETURN
       DO 20 K = 1, 2
-        DO 10 J = 1, 8
+        DO 10 J = 1, 9
           WRITE (*, '(6(Z16.16, :, 1X))') (D(I, J, K), I = 1, 6)
    10   CONTINUE
    20 CONTINUE

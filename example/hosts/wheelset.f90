@@ -11,7 +11,7 @@ program wheelsets
     type(wheel_strips_t) :: found
     type(tangential_field_t) :: field
     type(status_t) :: status
-    real(wp) :: slopes(6, 8, 2)
+    real(wp) :: slopes(6, 9, 2)
     integer :: setup, i, side, k
 
     do setup = 1, 2
@@ -43,7 +43,7 @@ program wheelsets
             print '(a, 1x, i0)', 'derivatives', status%code
             if (is_error(status)) cycle
             do side = 1, 2
-                do k = 1, 8
+                do k = 1, 9
                     call show(slopes(:, k, side))
                 end do
             end do

@@ -7,7 +7,7 @@ from typing import Any
 
 import faststrip
 import numpy as np
-from bogie import PITCH, RADIUS, ROLL, TREAD, YAW, Array, N, Y, Z
+from bogie import PITCH, ROLL, TREAD, YAW, Array, N, Y, Z
 
 MU = 0.3
 # What is computed how; beyond the ends of the table strips answer.
@@ -83,8 +83,5 @@ class ByWheelset:
             return None
         places = [Y, Z, ROLL, YAW]
         slopes[:, 0, places] = wheels[:, :, :4].sum(0)
-        slopes[:, 1, places] = wheels[:, :, 4:].sum(0)
-        # The library gives none over the pitch rate. A wheel's rim slides ahead with it as with a
-        # yaw rate, by other arms: r against -y. What differs is spin, which Newton's method bears.
-        slopes[:, 1, PITCH] = (wheels[1, :, 7] - wheels[0, :, 7]) * RADIUS / TREAD
+        slopes[:, 1, places + [PITCH]] = wheels[:, :, 4:].sum(0)
         return slopes

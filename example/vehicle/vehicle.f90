@@ -87,7 +87,7 @@ contains
         type(wheelset_state_t) :: motion
         type(wheelset_demand_t) :: demand
         type(wheelset_result_t) :: result
-        real(wp) :: slopes(6, 8, 2), wheelset(6, 2*own), parts(own, 6)
+        real(wp) :: slopes(6, 9, 2), wheelset(6, 2*own), parts(own, 6)
         integer :: w, first, last
 
         rates = matmul(fixed, state)
@@ -116,9 +116,8 @@ contains
             call check()
             wheelset = 0.0_wp
             wheelset(:, places) = sum(slopes(:, :4, :), dim=3)
-            wheelset(:, own + places) = sum(slopes(:, 5:, :), dim=3)
-            ! A rim slides ahead with the pitch rate as with a yaw rate, by other arms.
-            wheelset(:, own + pitch) = (slopes(:, 8, 2) - slopes(:, 8, 1))*radius/tread
+            wheelset(:, own + places) = sum(slopes(:, 5:8, :), dim=3)
+            wheelset(:, own + pitch) = sum(slopes(:, 9, :), dim=2)
             wheelset(:own, :) = matmul(parts, wheelset)
             do i = 1, own
                 associate (row => jacobian(n + first + i - 1, :), mass => masses(first + i - 1))

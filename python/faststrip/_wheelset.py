@@ -290,10 +290,10 @@ class WheelsetResult(Table):
         Contact problems that were solved for each wheel.
     pitch_rate : float
         As given, of pure rolling, or found, rad/s.
-    derivatives : ndarray of float, shape (2, 6, 8), or None
+    derivatives : ndarray of float, shape (2, 6, 9), or None
         Where they were asked for: of force and moment, x, y, z each, over y, z, roll, yaw and
-        y_rate, z_rate, roll_rate, yaw_rate, in N, N mm over mm, rad and per s; all other things
-        stay. Zeros in the air, and over the rates at rest; nan where contacts or patches come or
+        y_rate, z_rate, roll_rate, yaw_rate, pitch_rate, in N, N mm over mm, rad and per s; all
+        other things stay. Zeros in the air, and over the rates at rest; nan where contacts or patches come or
         go.
     """
 
@@ -569,7 +569,7 @@ thermal
             status, word_of(status), tuple(map(_contact_of, rows[:n.value])), tuple(totals.z),
             totals.roll, np.array(totals.force), np.array(totals.force_wheelset),
             np.array(totals.moment), tuple(totals.n_solutions), totals.pitch_rate,
-            slopes(self._call, library.faststrip_wheelset_get_derivatives, (2, 6, 8))
+            slopes(self._call, library.faststrip_wheelset_get_derivatives, (2, 6, 9))
             if flag("derivatives", derivatives) else None)
 
     def wear(self, law: Optional[WearLaw] = None, *,

@@ -6,14 +6,14 @@ import numpy as np
 
 from installed import HostTest
 
-COORDINATES = ("y", "z", "roll", "yaw", "y_rate", "z_rate", "roll_rate", "yaw_rate")
+COORDINATES = ("y", "z", "roll", "yaw", "y_rate", "z_rate", "roll_rate", "yaw_rate", "pitch_rate")
 STATE = {"y": 1.0, "yaw": 2e-3, "speed": 2e4, "y_rate": 30.0, "yaw_rate": -4e-3}
 
 
 # Steps of differences, and how far apart they may be from derivatives, of the largest of a column:
 # kinks of sliding elements are within these steps.
-STEPS = (1e-4, 1e-4, 1e-7, 1e-6, 1e-2, 1e-1, 1e-4, 1e-5)
-APART = (4e-3, 2e-4, 3e-4, 1e-4, 5e-6, 1e-6, 1e-5, 3e-6)
+STEPS = (1e-4, 1e-4, 1e-7, 1e-6, 1e-2, 1e-1, 1e-4, 1e-5, 1e-5)
+APART = (4e-3, 2e-4, 3e-4, 1e-4, 5e-6, 1e-6, 1e-5, 3e-6, 3e-6)
 
 
 class Derivatives(HostTest):
@@ -21,9 +21,10 @@ class Derivatives(HostTest):
         package = self.import_package()
         wheelset = package.Wheelset(estimate=False)
         rest = wheelset.solve(axle_load=1.2e5, **STATE)
-        state = {**STATE, "z": rest.z[0], "roll": rest.roll, "z_rate": 0.0, "roll_rate": 0.0}
+        state = {**STATE, "z": rest.z[0], "roll": rest.roll, "z_rate": 0.0, "roll_rate": 0.0,
+                 "pitch_rate": rest.pitch_rate}
         found = wheelset.solve(derivatives=True, **state).derivatives
-        self.assertEqual(found.shape, (2, 6, 8))
+        self.assertEqual(found.shape, (2, 6, 9))
         for k, (name, step, apart) in enumerate(zip(COORDINATES, STEPS, APART)):
             up, down = (wheelset.solve(**{**state, name: state[name] + way * step})
                         for way in (1, -1))

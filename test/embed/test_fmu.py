@@ -300,7 +300,8 @@ class Units(HostTest):
                 self.assertEqual(self.failing(other.state_of, bad), 3)
 
     def test_derivatives_are_those_of_the_library(self):
-        names = ("y", "z", "roll", "yaw", "y_rate", "z_rate", "roll_rate", "yaw_rate")
+        names = ("y", "z", "roll", "yaw", "y_rate", "z_rate", "roll_rate", "yaw_rate",
+                 "pitch_rate")
         wheelset = self.faststrip.Wheelset()
         slopes = wheelset.solve(derivatives=True, **motion_of(self.here())).derivatives
         for version in (2, 3):

@@ -377,13 +377,14 @@ class WheelFaces(HostTest):
         strips, wheelset = (self.package.Wheelset(estimate=False) for _ in range(2))
         wheelset.use_lookup(self.table)
         # Steps of y, z, roll, yaw and their rates: a table of one yaw has neighbours beside it.
-        steps = np.array([1e-5, 1e-6, 1e-8, 2e-8, 1e-2, 1e-2, 1e-5, 1e-5])
-        names = ["y", "z", "roll", "yaw", "y_rate", "z_rate", "roll_rate", "yaw_rate"]
+        steps = np.array([1e-5, 1e-6, 1e-8, 2e-8, 1e-2, 1e-2, 1e-5, 1e-5, 1e-5])
+        names = ["y", "z", "roll", "yaw", "y_rate", "z_rate", "roll_rate", "yaw_rate",
+                 "pitch_rate"]
         place = wheelset.solve(y=0.413, axle_load=1.5e5, speed=2e4)
         for speed, rate in ((2e4, 30.0), (-2e4, -17.0)):
             state = {"y": 0.413, "z": float(place.z[0]), "roll": float(place.roll), "yaw": 0.0,
                      "speed": speed, "y_rate": rate, "z_rate": 0.0, "roll_rate": 0.0,
-                     "yaw_rate": 0.01}
+                     "yaw_rate": 0.01, "pitch_rate": -speed / 460.0}
             found = wheelset.solve(**state, derivatives=True)
             self.assertEqual(found.n_solutions, (0, 0))
             alike = strips.solve(**state, derivatives=True).derivatives

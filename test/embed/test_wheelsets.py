@@ -14,10 +14,10 @@ def slopes_of(package, wheelset):
     """Columns of the derivatives at the last solution, one by one."""
     slopes = package._contact.slopes(wheelset._call,
                                      package._library.library.faststrip_wheelset_get_derivatives,
-                                     (2, 6, 8))
+                                     (2, 6, 9))
     if math.isnan(slopes[0, 0, 0]):
         return ["derivatives 108"]
-    return ["derivatives 0", *(bits(*slopes[side, :, k]) for side in range(2) for k in range(8))]
+    return ["derivatives 0", *(bits(*slopes[side, :, k]) for side in range(2) for k in range(9))]
 
 
 class Interfaces(HostTest):

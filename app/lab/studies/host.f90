@@ -228,7 +228,7 @@ contains
 
         type(wheelset_demand_t) :: prescribed
         type(status_t) :: status, last
-        real(wp) :: from, counted, slopes(6, 8, 2)
+        real(wp) :: from, counted, slopes(6, 9, 2)
         integer :: round, i
 
         prescribed = demand_of(demand)

@@ -48,7 +48,7 @@ module faststrip_interop_wheelset_handle
         type(status_t) :: status      !! of the last call
         type(doubts_t) :: doubts      !! what was outside of practice in the last state
         integer(c_intptr_t) :: lookup = 0 !! handle of its lookup table; 0: none
-        real(wp) :: derivatives(6, 8, 2) = 0.0_wp
+        real(wp) :: derivatives(6, 9, 2) = 0.0_wp
             !! as `find_wheelset_derivatives` has them, of the last call for them
     end type wheelset_handle_t
 

@@ -27,28 +27,29 @@ module faststrip_wheelset_derivatives
     public :: find_wheelset_derivatives
 
     ! Given: columns of derivatives.
-    integer, parameter :: n_coordinates = 4
+    integer, parameter :: n_coordinates = 4, n_columns = 2*n_coordinates + 1
     ! Given: in which order they are looked at: the outline for z is that of the solution.
     integer, parameter :: order(n_coordinates) = [1, 3, 4, 2]
     ! Given: signs of columns in a mirror, and of a wheelset that rolls back.
-    real(wp), parameter :: mirrored(2*n_coordinates) = [-1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, &
-                                                        -1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp], &
-                           reversed(2*n_coordinates) = [1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, &
-                                                        1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp]
+    real(wp), parameter :: mirrored(n_columns) = [-1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, -1.0_wp, &
+                                                  1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp], &
+                           reversed(n_columns) = [1.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, &
+                                                  1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp]
 
 contains
 
     !> Derivatives of the forces of each wheel on its rail, in the track, and of their moments about
     !> the wheelset's centre, at the last solution: rows Fx, Fy, Fz, N, Mx, My, Mz, N mm; columns y,
-    !> z, mm, roll, yaw, rad, and their rates, per s. Strips are solved to the last digits on the
-    !> way. Over the rates of a wheelset that is at rest, without a floor of the speed,
-    !> derivatives are 0: it has no friction there; those of a wheel in the air are 0, too.
+    !> z, mm, roll, yaw, rad, their rates, per s, and the pitch rate, rad/s. Strips are solved to
+    !> the last digits on the way. Over the rates of a wheelset that is at rest, without a floor of
+    !> the speed, derivatives are 0: it has no friction there; those of a wheel in the air are 0,
+    !> too.
     subroutine find_wheelset_derivatives(model, workspace, wants, result, derivatives, status)
         type(wheelset_model_t), intent(in) :: model                !! made
         type(wheelset_workspace_t), intent(inout) :: workspace     !! of the solution
         logical, intent(in) :: wants(2)                            !! which wheels: right, left
         type(wheelset_result_t), intent(in) :: result              !! of the solution
-        real(wp), intent(out) :: derivatives(6, 8, 2)              !! of right and left wheel; 0
+        real(wp), intent(out) :: derivatives(6, 9, 2)              !! of right and left wheel; 0
                                                                    !! where not asked for
         type(status_t), intent(out) :: status
             !! those of `check_differentiable`; `st_bad_argument`: no solution;
@@ -87,8 +88,7 @@ contains
 
         type(wheelset_state_t) :: state
         type(status_t) :: there_is_none
-        real(wp) :: step(2*n_coordinates), forces(6, n_coordinates), here(6), &
-            there(6), smallest
+        real(wp) :: step(n_columns), forces(6, n_coordinates), here(6), there(6), smallest
         integer :: i, j
         logical :: by_table
 
@@ -101,6 +101,7 @@ contains
         step(4) = step(1)/yaw_lever
         step(5:6) = creepage_step*maxval(wheel%contact(:wheel%n)%speed)
         step(7:8) = step(5)/model%pair(side)%y_line
+        step(9) = step(5)/model%radius
         ! To the side that is the same of a wheel in a mirror.
         if (side == side_left) step = step*mirrored
         if (workspace%is_reversed) step = step*reversed
@@ -130,7 +131,7 @@ contains
         end do
         if (is_at_rest(state) .and. .not. model%speed_floor > 0.0_wp) return
         call turn_back(near)
-        do i = n_coordinates + 1, 2*n_coordinates
+        do i = n_coordinates + 1, n_columns
             call move_near(moved(state, i, step(i)), there)
             if (failed()) return
             derivatives(:, i) = (there - here)/step(i)
@@ -205,7 +206,7 @@ contains
         integer, intent(in) :: i
         real(wp), intent(in) :: step
 
-        real(wp) :: change(2*n_coordinates)
+        real(wp) :: change(n_columns)
 
         change = 0.0_wp
         change(i) = step
@@ -219,6 +220,7 @@ contains
             moved%z_rate = state%z_rate + rate(2)
             moved%roll_rate = state%roll_rate + rate(3)
             moved%yaw_rate = state%yaw_rate + rate(4)
+            moved%pitch_rate = state%pitch_rate + rate(5)
         end associate
     end function moved
 end module faststrip_wheelset_derivatives

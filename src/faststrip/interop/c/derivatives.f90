@@ -37,7 +37,7 @@ contains
         result(code)
         integer(c_intptr_t), value :: wheelset !! a handle
         type(c_ptr), value :: derivatives
-            !! (2, 6, 8) doubles: right and left, rows Fx, Fy, Fz, Mx, My, Mz; written
+            !! (2, 6, 9) doubles: right and left, rows Fx, Fy, Fz, Mx, My, Mz; written
 
         type(wheelset_handle_t), pointer :: handle
         real(wp), pointer :: rows(:, :, :)
@@ -49,7 +49,7 @@ contains
         if (.not. is_error(handle%status)) call wheelset_derivatives(handle)
         code = handle%status%code
         if (is_error(handle%status)) return
-        call c_f_pointer(derivatives, rows, [8, 6, 2])
+        call c_f_pointer(derivatives, rows, [9, 6, 2])
         do side = 1, 2
             rows(:, :, side) = transpose(handle%derivatives(:, :, side))
         end do

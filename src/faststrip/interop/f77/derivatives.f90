@@ -34,11 +34,11 @@ contains
 
     !> CALL FSWDRV(IWORK, D, INFO)
     !>
-    !> Derivatives of Fx, Fy, Fz, Mx, My, Mz of each wheel, in the rows of D, over y, z, roll, yaw
-    !> and their rates, in its columns, at the last solution; right, left.
+    !> Derivatives of Fx, Fy, Fz, Mx, My, Mz of each wheel, in the rows of D, over y, z, roll,
+    !> yaw, their rates and the pitch rate, in its columns, at the last solution; right, left.
     subroutine fswdrv(iwork, d, info) bind(c, name='fswdrv_')
         integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
-        real(c_double), intent(inout) :: d(6, 8, 2)  !! N, N mm over mm, rad, 1/s; kept with errors
+        real(c_double), intent(inout) :: d(6, 9, 2)  !! N, N mm over mm, rad, 1/s; kept with errors
         integer(c_int), intent(out) :: info          !! status
 
         type(wheelset_handle_t), pointer :: handle
