@@ -108,8 +108,7 @@ FMI(Status) OF_STATE(Get, )(void *c, void **state)
 
 FMI(Status) OF_STATE(Set, )(void *c, void *state)
 {
-    restore_state(c, state);
-    return FMI(OK);
+    return (FMI(Status))restore_state(c, state);
 }
 
 FMI(Status) OF_STATE(Free, )(void *c, void **state)
@@ -121,7 +120,7 @@ FMI(Status) OF_STATE(Free, )(void *c, void **state)
 
 FMI(Status) OF_STATE(Serialized, Size)(void *c, void *state, size_t *size)
 {
-    *size = state_size();
+    *size = state_size(state);
     return FMI(OK);
 }
 

@@ -174,7 +174,7 @@ static int make_wheelset(model *m)
     if (status == STATUS_OK) status = try_demand(m, &any);
     if (status == STATUS_OK) status = try_demand(m, &m->now.demand);
     if (status != STATUS_OK) faststrip_wheelset_free(&m->wheelset);
-    m->is_elsewhere = 1;
+    m->last = ELSEWHERE;
     return status;
 }
 
@@ -206,14 +206,14 @@ int solve_model(model *m)
     if (m->now.is_solved) return STATUS_OK;
     status = make_wheelset(m);
     if (status != STATUS_OK) return status;
-    if (m->is_elsewhere) demand.warm_start = 0;
+    if (m->last == ELSEWHERE) demand.warm_start = 0;
     code = solve_state(m, &m->now.state, &demand, &m->now);
     if (code >= FASTSTRIP_FIRST_ERROR) {
         faststrip_wheelset_last_message(m->wheelset, text, sizeof text);
         return refuse_call(m, STATUS_DISCARD, code, text);
     }
     m->now.is_solved = 1;
-    m->is_elsewhere = 0;
+    m->last = HERE;
     m->slopes_are = UNKNOWN;
     if (m->is_logging) tell_doubts(m, code);
     return STATUS_OK;
@@ -272,45 +272,76 @@ int write_variable(model *m, unsigned int reference, enum kind kind, const void 
 
 /* States */
 
-int keep_state(model *m, void **state)
+/* What has variables, and the library's memory of its last solution; plain bytes. */
+typedef struct state {
+    char token[sizeof UNIT_TOKEN];
+    size_t size; /* of all of it */
+    values now;
+    unsigned char memory[];
+} state;
+
+int keep_state(model *m, void **kept)
 {
-    if (!*state) *state = malloc(sizeof(values));
-    if (!*state) return refuse(m, STATUS_ERROR, "there is no memory for a state");
-    memcpy(*state, &m->now, sizeof(values));
+    size_t memory = 0;
+    state *s;
+    if (m->wheelset && m->last != ELSEWHERE)
+        faststrip_wheelset_save(m->wheelset, 0, &memory, NULL);
+    s = realloc(*kept, sizeof(state) + memory);
+    if (!s) return refuse(m, STATUS_ERROR, "there is no memory for a state");
+    *kept = s;
+    memset(s, 0, sizeof(state));
+    memcpy(s->token, UNIT_TOKEN, sizeof UNIT_TOKEN);
+    s->size = sizeof(state) + memory;
+    s->now = m->now;
+    if (memory > 0) faststrip_wheelset_save(m->wheelset, memory, &memory, s->memory);
     return STATUS_OK;
 }
 
-void restore_state(model *m, const void *state)
+int restore_state(model *m, const void *kept)
 {
+    const state *s = kept;
     size_t first = offsetof(values, profile), size = offsetof(values, demand) - first;
-    if (memcmp((const char *)state + first, (const char *)&m->now + first, size) != 0)
+    int status = STATUS_OK;
+    if (memcmp((const char *)&s->now + first, (const char *)&m->now + first, size) != 0)
         faststrip_wheelset_free(&m->wheelset);
-    memcpy(&m->now, state, sizeof(values));
-    m->is_elsewhere = 1;
+    m->now = s->now;
+    m->last = ELSEWHERE;
+    if (s->size == sizeof(state)) return STATUS_OK;
+    status = make_wheelset(m);
+    if (status != STATUS_OK) return status;
+    if (faststrip_wheelset_restore(m->wheelset, s->size - sizeof(state), s->memory)
+        < FASTSTRIP_FIRST_ERROR)
+        m->last = RESTORED;
+    else
+        status = refuse(m, STATUS_ERROR, "the bytes are not those of a state of this unit");
+    return status;
 }
 
-size_t state_size(void)
+size_t state_size(const void *kept)
 {
-    return sizeof UNIT_TOKEN + sizeof(values);
+    return ((const state *)kept)->size;
 }
 
-int write_state(model *m, const void *state, void *bytes, size_t size)
+int write_state(model *m, const void *kept, void *bytes, size_t size)
 {
-    if (size < state_size()) return refuse(m, STATUS_ERROR, "the bytes are too few for a state");
-    memcpy(bytes, UNIT_TOKEN, sizeof UNIT_TOKEN);
-    memcpy((char *)bytes + sizeof UNIT_TOKEN, state, sizeof(values));
+    if (size < state_size(kept))
+        return refuse(m, STATUS_ERROR, "the bytes are too few for a state");
+    memcpy(bytes, kept, state_size(kept));
     return STATUS_OK;
 }
 
-int read_state(model *m, const void *bytes, size_t size, void **state)
+int read_state(model *m, const void *bytes, size_t size, void **kept)
 {
-    int status;
-    if (size != state_size() || memcmp(bytes, UNIT_TOKEN, sizeof UNIT_TOKEN) != 0)
+    state head, *s;
+    if (size >= sizeof head) memcpy(&head, bytes, sizeof head);
+    if (size < sizeof head || head.size != size
+        || memcmp(head.token, UNIT_TOKEN, sizeof UNIT_TOKEN) != 0)
         return refuse(m, STATUS_ERROR, "the bytes are not those of a state of this unit");
-    status = keep_state(m, state);
-    if (status != STATUS_OK) return status;
-    memcpy(*state, (const char *)bytes + sizeof UNIT_TOKEN, sizeof(values));
-    for (int i = 0; i < 4; i++) ((values *)*state)->profile[i][PATH_LENGTH - 1] = '\0';
+    s = realloc(*kept, size);
+    if (!s) return refuse(m, STATUS_ERROR, "there is no memory for a state");
+    *kept = s;
+    memcpy(s, bytes, size);
+    for (int i = 0; i < 4; i++) s->now.profile[i][PATH_LENGTH - 1] = '\0';
     return STATUS_OK;
 }
 
@@ -376,7 +407,7 @@ int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsi
     difference all = {.distance = 0.0}, others = all, *along;
     const variable *of;
     int status;
-    if (m->is_elsewhere) m->now.is_solved = 0;
+    if (m->last != HERE) m->now.is_solved = 0;
     status = solve_model(m);
     if (status != STATUS_OK) return status;
     for (size_t i = 0; i < k; i++) {

@@ -27,8 +27,7 @@ typedef struct side {
     faststrip_wheelset_contact contact[SHOWN];
 } side;
 
-/* All that has a variable; what a wheelset is made of from `profile` to before `demand`. A state is
- * no more, in plain bytes: the library's memory of its last solution only shortens the next. */
+/* All that has a variable; what a wheelset is made of from `profile` to before `demand`. */
 typedef struct values {
     double time;
     int is_running; /* initialized: parameters stay */
@@ -45,7 +44,8 @@ typedef struct values {
 typedef struct model {
     values now;
     faststrip_wheelset *wheelset; /* null: to be made of the parameters */
-    int is_elsewhere;             /* its last solution is none to start from */
+    /* Its last solution: that of the outputs, one to start from, or none. */
+    enum { HERE, RESTORED, ELSEWHERE } last;
     enum { UNKNOWN, KNOWN, NONE } slopes_are;
     double slopes[2][6][9];       /* derivatives of the library at the last solution */
     int is_logging;
@@ -77,10 +77,10 @@ int write_variable(model *m, unsigned int reference, enum kind kind, const void 
 
 /* *state is made where it is null, and freed by free(). */
 int keep_state(model *m, void **state);
-void restore_state(model *m, const void *state);
+int restore_state(model *m, const void *state);
 
 /* The same as bytes. */
-size_t state_size(void);
+size_t state_size(const void *state);
 int write_state(model *m, const void *state, void *bytes, size_t size);
 int read_state(model *m, const void *bytes, size_t size, void **state);
 

@@ -697,6 +697,14 @@ int faststrip_wheelset_free(faststrip_wheelset **wheelset);
  * taken back. */
 int faststrip_wheelset_copy(const faststrip_wheelset *from, faststrip_wheelset *to);
 
+/* What the next solution depends on, as bytes that outlive the program: a wheelset that was made
+ * alike takes them over, also elsewhere, and solves on with the bits of the one that was saved. Of
+ * the last solution nothing can be asked afterwards; what the caller sets is not among them. *n
+ * becomes the number of bytes, also with 110 where capacity is less: 0 asks for it. Bytes that are
+ * cut, damaged, of another version, order of bytes or wheelset are refused (121). */
+int faststrip_wheelset_save(faststrip_wheelset *wheelset, size_t capacity, size_t *n, void *bytes);
+int faststrip_wheelset_restore(faststrip_wheelset *wheelset, size_t n, const void *bytes);
+
 /* Solve the contacts, those of the right wheel first. *n becomes their number, with 110 those that
  * capacity lacks; FASTSTRIP_MOST_CONTACTS are enough. A limitation of any contact is the status. A
  * wheelset that is lifted off both rails, by its position, has no contacts and status 0. */
@@ -708,9 +716,9 @@ int faststrip_wheelset_solve(faststrip_wheelset *wheelset, const faststrip_wheel
 /* Derivatives at the last solution: derivatives[wheel][i][j], right wheel first, is that of Fx, Fy,
  * Fz (N), Mx, My, Mz (N mm), as `force` and `moment` of the result, over y, z (mm), roll, yaw
  * (rad), y_rate, z_rate (mm/s), roll_rate, yaw_rate, pitch_rate (rad/s); all other things stay,
- * also where the height was found for a load. A pitch rate that was left out stays that of pure rolling. Zeros of
- * a wheel that was not asked for or is in the air, and over the rates at rest without a floor of
- * the speed. Errors as faststrip_get_derivatives. */
+ * also where the height was found for a load. A pitch rate that was left out stays that of pure
+ * rolling. Zeros of a wheel that was not asked for or is in the air, and over the rates at rest
+ * without a floor of the speed. Errors as faststrip_get_derivatives. */
 int faststrip_wheelset_get_derivatives(faststrip_wheelset *wheelset,
                                        double derivatives[2][6][9]);
 

@@ -458,6 +458,7 @@ static void wear_errors(faststrip_workspace *workspace)
     faststrip_wear_law law = wear_law;
     faststrip_result result;
     double f[6], a[400], slopes[2][6][9];
+    size_t length;
     char text[FASTSTRIP_TEXT];
     faststrip_wheelset_state state;
     faststrip_wheelset_demand demand;
@@ -522,6 +523,20 @@ static void wear_errors(faststrip_workspace *workspace)
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_derivatives(wheelset, NULL));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_get_derivatives(gone, slopes));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_derivatives(none, (double (*)[4])slopes));
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL, faststrip_wheelset_save(wheelset, 0, &length, NULL));
+    EXPECT(1, length > 100 && length <= sizeof a);
+    EXPECT(FASTSTRIP_WORKSPACE_TOO_SMALL,
+           faststrip_wheelset_save(wheelset, length - 1, &length, a));
+    EXPECT(0, faststrip_wheelset_save(wheelset, length, &length, a));
+    EXPECT(0, faststrip_wheelset_restore(wheelset, length, a));
+    EXPECT(FASTSTRIP_FILE_FORMAT, faststrip_wheelset_restore(wheelset, length - 1, a));
+    EXPECT(0, faststrip_wheelset_last_message(wheelset, text, sizeof text));
+    EXPECT(0, strcmp(text, "the memory of a wheelset is cut"));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_save(wheelset, length, NULL, a));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_save(wheelset, length, &length, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_save(gone, length, &length, a));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_restore(wheelset, length, NULL));
+    EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_wheelset_restore(gone, length, a));
     EXPECT(FASTSTRIP_BAD_ARGUMENT, faststrip_get_derivatives(workspace, NULL));
     EXPECT(FASTSTRIP_BAD_ARGUMENT,
            faststrip_wheelset_get_elements(wheelset, 0, 400, &n, a, a, a, a, a, a, a, a, k));

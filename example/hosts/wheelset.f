@@ -4,7 +4,9 @@ C     as bits.
       INTEGER NPTS, NCASE
       PARAMETER (NPTS = 61, NCASE = 12)
       INTEGER IOPT(9), NPROF(4), IWORK(8), IDMND(4), N, INFO, I, K, IC
-      INTEGER ISIDE
+      INTEGER ISIDE, MEMORY, NEEDED
+      PARAMETER (MEMORY = 1000000)
+      DOUBLE PRECISION BYTES(MEMORY/8)
       DOUBLE PRECISION PAR(9), SETUP(9), Y(2*NPTS), Z(2*NPTS), S(11)
       DOUBLE PRECISION DMND(4), CONT(48, 16), WRES(27), R(12), RK(12)
       DATA DMND /6.0D4, 5.0D4, 1.2D5, 1.0D6/
@@ -65,6 +67,11 @@ C         rotates by itself.
    40     CONTINUE
           IF (I .GT. 6) CALL FSRAIL(IWORK, R, INFO)
           IF (I .GT. 6) CALL FSPTCH(IWORK, 0.01D0*I, INFO)
+C         Nothing changes where memory is taken out and put back.
+          CALL FSWSAV(IWORK, MEMORY, BYTES, NEEDED, INFO)
+          IF (INFO .NE. 0) STOP 5
+          CALL FSWRST(IWORK, NEEDED, BYTES, INFO)
+          IF (INFO .NE. 0) STOP 6
           CALL FSWSLV(IWORK, S, IDMND, DMND, 16, N, CONT, WRES, INFO)
           WRITE (*, '(A, 2(1X, I0))') 'solved', INFO, N
           DO 70 ISIDE = 1, 2

@@ -7,7 +7,7 @@ from typing import Any
 
 import faststrip
 import numpy as np
-from bogie import PITCH, ROLL, TREAD, YAW, Array, N, Y, Z
+from bogie import PITCH, RADIUS, ROLL, TREAD, YAW, Array, N, Y, Z
 
 MU = 0.3
 # What is computed how; beyond the ends of the table strips answer.

@@ -136,6 +136,8 @@ def _declare(library: ctypes.CDLL) -> None:
         "wheelset_new": [*[c_void_p] * 3, POINTER(Case), POINTER(handle), c_char_p, c_size_t],
         "wheelset_free": [POINTER(handle)],
         "wheelset_solve": [handle, *[c_void_p] * 2, c_int, POINTER(c_int), *[c_void_p] * 2],
+        "wheelset_save": [handle, c_size_t, POINTER(c_size_t), c_void_p],
+        "wheelset_restore": [handle, c_size_t, c_void_p],
         "wheelset_get_derivatives": [handle, c_void_p],
         "wheelset_get_strips": [handle, c_int, c_int, POINTER(c_int), *[c_void_p] * 5],
         "wheelset_get_elements": [handle, c_int, c_int, POINTER(c_int), *[c_void_p] * 9],

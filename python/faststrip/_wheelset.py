@@ -26,6 +26,7 @@ from ._contact import (
 )
 from ._library import (
     FIRST_ERROR,
+    TOO_SMALL,
     FaststripError,
     Handle,
     bad_argument,
@@ -293,8 +294,8 @@ class WheelsetResult(Table):
     derivatives : ndarray of float, shape (2, 6, 9), or None
         Where they were asked for: of force and moment, x, y, z each, over y, z, roll, yaw and
         y_rate, z_rate, roll_rate, yaw_rate, pitch_rate, in N, N mm over mm, rad and per s; all
-        other things stay. Zeros in the air, and over the rates at rest; nan where contacts or patches come or
-        go.
+        other things stay. Zeros in the air, and over the rates at rest; nan where contacts or
+        patches come or go.
     """
 
     status: int
@@ -330,6 +331,13 @@ class WheelsetResult(Table):
 
 def _counted(contact: Any) -> int:
     return whole("contact", contact, 0, MOST_CONTACTS)
+
+
+def _made_again(made_of: Dict[str, Any], data: bytes) -> Wheelset:
+    """A Wheelset of its arguments and its memory."""
+    wheelset = Wheelset(**made_of)
+    wheelset.restore(data)
+    return wheelset
 
 
 class Wheelset:
@@ -399,6 +407,7 @@ thermal
                  force_limit: float = 0.1, curved: bool = False, target: Optional[str] = None,
                  tolerance: Optional[float] = None, budget_us: Optional[float] = None,
                  thermal: Optional[Thermal] = None) -> None:
+        self._made_of = {name: value for name, value in locals().items() if name != "self"}
         self._handle: Optional[Handle] = None
         self._lookup: Optional[Handle] = None
         self._n_contacts = 0
@@ -433,7 +442,49 @@ thermal
         self.close()
 
     def __reduce__(self) -> Any:
-        raise TypeError("a Wheelset cannot be copied or pickled: make one in every process")
+        if self._lookup is not None:
+            raise TypeError("a Wheelset with a lookup table cannot be copied or pickled: take the "
+                            "table out before")
+        return _made_again, (self._made_of, self.save())
+
+    def save(self) -> bytes:
+        """What the next solution with ``warm_start`` depends on, as bytes that can be stored.
+
+        `pickle` and `copy` keep it, too.
+
+        Returns
+        -------
+        bytes
+        """
+        n = c_size_t()
+        try:
+            self._call(library.faststrip_wheelset_save, 0, ctypes.byref(n), None)
+        except FaststripError as problem:
+            if problem.status != TOO_SMALL:
+                raise
+        room = ctypes.create_string_buffer(n.value)
+        self._call(library.faststrip_wheelset_save, n, ctypes.byref(n), room)
+        return room.raw
+
+    def restore(self, data: bytes) -> None:
+        """Take over what was saved: the next solution has the bits of the one after `save`.
+
+        Of the last solution nothing can be asked afterwards: no strips, wear or derivatives.
+
+        Parameters
+        ----------
+        data : bytes
+            Of `save`, of a Wheelset that was made alike, in this process or before.
+
+        Raises
+        ------
+        FaststripError
+            Where they are cut, damaged, of another version or of another wheelset.
+        """
+        if not isinstance(data, bytes):
+            raise refused("data", "bytes", data)
+        self._call(library.faststrip_wheelset_restore, len(data), data)
+        self._n_contacts = 0
 
     def use_lookup(self, table: Optional[WheelLookup], *, order: str = "cubic") -> None:
         """Let a table answer where it reaches; strips do beyond its ends.

@@ -51,6 +51,7 @@
 !> faststrip_lookup_faces               faststrip_lookup_hertz
 !> faststrip_lookup_wheel               tables of creep forces
 !> faststrip_wheelset_enter             a table that answers for a wheelset
+!> faststrip_wheelset_memory            a wheelset's memory as bytes
 !> ```
 !>
 !> Each name comes from the module that makes it: so an installed library shows it to the linker.

@@ -18,7 +18,7 @@ F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp f
                 " fscurv fsgapt"
                 " fserrs fsferr fslset fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast"
                 " fsints fswdft fswnew fsrail fsptch fsaxle fsprat fsdamp fswslv fswset fswstr"
-                " fswelm fswstw fsroll fsrprf fswcpy fswfre fsderv fswdrv"
+                " fswelm fswstw fsroll fsrprf fswcpy fswsav fswrst fswfre fsderv fswdrv"
                 " fsfric fsfrtb fswear fsstwr fsheat fsflsh fstemp"
                 " fscfun fsconi fslopn fslfre fslinf fslook fslwin fslcon"
                 " fslwze fswlkp fslwhl fsrdpr fsdoub fsgivn fscrep fsstrs fspeak".split())

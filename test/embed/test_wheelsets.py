@@ -3,7 +3,10 @@
 import csv
 import ctypes
 import math
+import pickle
 import random
+import struct
+import zlib
 
 import numpy as np
 
@@ -300,6 +303,82 @@ class Interfaces(HostTest):
                 wheelset.copy_from(1.0)
         with self.assertRaisesRegex(package.FaststripError, "the wheelset is closed"):
             kept.copy_from(package.Wheelset())
+
+    def test_saved_bytes_go_on_alike(self):
+        package = self.import_package()
+
+        def figures(result):
+            return (result.force.tolist(), result.moment.tolist(), result.z, result.roll,
+                    result.n_solutions, result.contacts)
+
+        # One and two contacts, strips beside each other and not, a wheel that rolls back, other
+        # methods; of walks that begin with the last state that was saved.
+        walks = (({}, {"load": 6e4, "roll": 0.0}, 0.3, 2e4, 0.0),
+                 ({}, {"load": 5e4}, 0.2, -2e4, 2e-3),
+                 ({}, {"axle_load": 1.1e5}, 4.1, 2e4, 0.012),
+                 ({}, {"axle_load": 1.1e5, "roll": 0.0}, 5.75, 2e4, 1e-3),
+                 ({"strips_per_patch": 21}, {"z": 0.12, "roll": 1e-5}, 4.7, 2e4, 0.0),
+                 ({"curved": True}, {"load": 6e4}, 5.5, 2e4, 4e-3),
+                 ({"normal": "auto", "target": "pmax", "tolerance": 0.05}, {"load": 6e4}, 1.0,
+                  2e4, 1e-3),
+                 ({"normal": "hertz", "tangential": "polach"}, {"axle_load": 1e5}, 2.0, 2e4, 0.0))
+        for made, demand, y, speed, yaw in walks:
+            wheelset, later = package.Wheelset(**made), package.Wheelset(**made)
+            states = [{"y": y + 0.02 * k * (1 + k % 3), "yaw": yaw, "speed": speed,
+                       "warm_start": True, **demand} for k in range(8)]
+            for state in states[:4]:
+                wheelset.solve(**state)
+            data = wheelset.save()
+            self.assertEqual(data, wheelset.save())
+            wanted = [figures(wheelset.solve(**state)) for state in states[4:]]
+            # Another one, one that has been elsewhere, the one that went on.
+            for one in (package.Wheelset(**made), later, wheelset):
+                if one is later:
+                    one.solve(**{**states[0], "y": 1.7})
+                one.restore(data)
+                self.assertEqual(one.save(), data)
+                self.assertEqual([figures(one.solve(**state)) for state in states[4:]], wanted,
+                                 (made, demand))
+            again = pickle.loads(pickle.dumps(wheelset))
+            next_one = {**states[-1], "y": y + 0.7}
+            self.assertEqual(figures(again.solve(**next_one)), figures(wheelset.solve(**next_one)))
+
+    def test_bytes_that_are_not_those_of_a_wheelset_are_refused(self):
+        package = self.import_package()
+        wheelset = package.Wheelset()
+        state = {"y": 1.0, "speed": 2e4, "load": 6e4, "warm_start": True}
+        empty = wheelset.save()
+        wheelset.solve(**state)
+        data = wheelset.save()
+        self.assertLess(len(empty), 200)
+        state["y"] = 1.01
+        # A damaged one with a checksum that is right: numbers of strips that cannot be.
+        wild = data[:8 * 40] + bytes(range(200, 250)) * 40 + data[8 * 40 + 2000:-8]
+        wild += struct.pack("<q", struct.unpack("<i", struct.pack("<I", zlib.crc32(wild)))[0])
+        for bad, why in ((b"", "cut"), (data[:100], "cut"), (data[:-8], "cut"),
+                         (data + b"x" * 8, "cut"), (b"x" + data[1:], "none"),
+                         (data[:8] + data[8:16][::-1] + data[16:], "order of bytes"),
+                         (data[:16] + b"\x63" + data[17:], "another version"),
+                         (data[:5000] + bytes([data[5000] ^ 1]) + data[5001:], "damaged"),
+                         (package.Wheelset(strips_per_patch=9).save(), "another wheelset"),
+                         (package.Wheelset(rail="54e1").save(), "another wheelset"),
+                         (wild, "damaged")):
+            before = wheelset.save()
+            with self.assertRaisesRegex(package.FaststripError, why):
+                wheelset.restore(bad)
+            if bad is not wild:
+                self.assertEqual(wheelset.save(), before)
+        found, cold = (one.solve(**state) for one in (wheelset, package.Wheelset()))
+        self.assertEqual(found.force.tolist(), cold.force.tolist())
+        wheelset.restore(data)
+        with self.assertRaisesRegex(package.FaststripError, "no such contact"):
+            wheelset.strips(0)
+        with self.assertRaisesRegex(package.FaststripError, "there is no solution"):
+            package._contact.slopes(
+                wheelset._call, package._library.library.faststrip_wheelset_get_derivatives,
+                (2, 6, 9))
+        with self.assertRaisesRegex(package.FaststripError, "data must be bytes"):
+            wheelset.restore("x")
 
     def test_what_the_accuracy_of_profiles_leaves_open(self):
         package = self.import_package()

@@ -1,6 +1,7 @@
 !> What stands behind the handles of wheelsets in the C and F77 interfaces.
 module faststrip_interop_wheelset_handle
     use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_ptr, c_f_pointer
+    use, intrinsic :: iso_fortran_env, only: int8, int64
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_bad_argument, st_workspace_too_small, st_ok
     use faststrip_base_kinds, only: wp
@@ -19,6 +20,7 @@ module faststrip_interop_wheelset_handle
     use faststrip_lookup_table, only: lookup_t
     use faststrip_wheelset_derivatives, only: find_wheelset_derivatives
     use faststrip_wheelset_enter, only: enter_lookup
+    use faststrip_wheelset_memory, only: save_wheelset, restore_wheelset
     use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheel_workspace_t, &
@@ -30,7 +32,8 @@ module faststrip_interop_wheelset_handle
     public :: allocate_wheelset, allocate_workspace, free_wheelset, find_wheelset, take_wheels
     public :: wheelset_solve
     public :: contact_count, contact_place, find_contact, contact_mirror
-    public :: copy_wheelset, pitch_rate_of, wheelset_derivatives, use_lookup
+    public :: copy_wheelset, save_memory, restore_memory
+    public :: pitch_rate_of, wheelset_derivatives, use_lookup
 
     ! Given: `FASTSTRIP_LOCKED_WHEELS`, what stands for a pitch rate of 0.
     real(wp), parameter :: locked_wheels = 1.0e300_wp
@@ -48,8 +51,6 @@ module faststrip_interop_wheelset_handle
         type(status_t) :: status      !! of the last call
         type(doubts_t) :: doubts      !! what was outside of practice in the last state
         integer(c_intptr_t) :: lookup = 0 !! handle of its lookup table; 0: none
-        real(wp) :: derivatives(6, 9, 2) = 0.0_wp
-            !! as `find_wheelset_derivatives` has them, of the last call for them
     end type wheelset_handle_t
 
 contains
@@ -210,6 +211,26 @@ contains
         call lend_elements(kept(2), to%contact(1)%solver%lattice)
     end subroutine copy_memory
 
+    !> What the next solution of a handle depends on, as bytes.
+    subroutine save_memory(handle, bytes, n)
+        type(wheelset_handle_t), intent(inout) :: handle           !! its status tells how it ended
+        integer(int8), intent(inout), target, contiguous :: bytes(:) !! the first n are written
+        integer(int64), intent(out) :: n                           !! how many there are
+
+        call save_wheelset(handle%model, handle%workspace, bytes, n, handle%status)
+    end subroutine save_memory
+
+    !> Take it over: of the last solution nothing can be asked afterwards.
+    subroutine restore_memory(handle, bytes)
+        type(wheelset_handle_t), intent(inout) :: handle          !! its status tells how it ended
+        integer(int8), intent(in), target, contiguous :: bytes(:) !! of `save_memory`
+
+        call restore_wheelset(handle%model, handle%workspace, bytes, handle%status)
+        if (is_error(handle%status)) return
+        handle%has = .false.
+        handle%doubts%n = 0
+    end subroutine restore_memory
+
     !> The pitch rate of a number in C and F77, where 0 is what nobody has said.
     elemental real(wp) function pitch_rate_of(number) result(rate)
         real(wp), intent(in) :: number !! rad/s; 0: pure rolling, `locked_wheels` or more: 0
@@ -304,11 +325,17 @@ contains
     end subroutine wheelset_solve
 
     !> Derivatives at the last solution of a handle.
-    subroutine wheelset_derivatives(handle)
-        type(wheelset_handle_t), intent(inout) :: handle !! gets them; its status tells how it ended
+    subroutine wheelset_derivatives(handle, derivatives)
+        type(wheelset_handle_t), intent(inout) :: handle !! its status tells how it ended
+        real(wp), intent(out) :: derivatives(6, 9, 2)    !! as `find_wheelset_derivatives` has them
 
+        derivatives = 0.0_wp
+        if (.not. any(handle%has)) then
+            call set_status(handle%status, st_bad_argument, 'there is no solution of the wheelset')
+            return
+        end if
         call find_wheelset_derivatives(handle%model, handle%workspace, handle%has, handle%result, &
-                                       handle%derivatives, handle%status)
+                                       derivatives, handle%status)
     end subroutine wheelset_derivatives
 
     !> Contacts of the last solution.

@@ -3,6 +3,7 @@
 !>
 !> Steps are those of the secant over the force to 2/3, which Hertz' law makes linear, between
 !> bounds. Near the end the force is the solver's to some ten digits only: there the slope is kept.
+!> Likewise the roll at which two wheels stand equally high.
 module faststrip_wheelset_approach
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: most_steps
@@ -12,6 +13,7 @@ module faststrip_wheelset_approach
     public :: approach_search_t, start_search, take_force, is_found, is_near, usual_approach
     public :: largest_jump, near_enough, most_growth, equilibrium, most_tries
     public :: telling, hertz_power
+    public :: roll_search_t, next_roll, most_roll_step
 
     ! Tuned [1]: equilibrium of one wheel, of the load. Origin: above the digits of a contact's
     ! solution; with 9e-11 forces change by as much.
@@ -46,6 +48,10 @@ module faststrip_wheelset_approach
     !> Tuned [tries]. Origin: chosen: two or three do where forces do not jump.
     integer, parameter :: most_tries = 8
 
+    !> Largest step of the roll.
+    !> Tuned [rad]. Origin: safeguard: a wheel goes down by a flange's height, 15 mm.
+    real(wp), parameter :: most_roll_step = 0.02_wp
+
     !> A search, and the approach that it wants to know the force of.
     type :: approach_search_t
         real(wp) :: approach = 0.0_wp      !! next one, mm
@@ -64,6 +70,13 @@ module faststrip_wheelset_approach
         real(wp) :: bracket = 0.0_wp       !! the same of the bracket, of its upper end
         integer :: steps = 0               !! so far
     end type approach_search_t
+
+    !> A search of the roll at which two wheels stand equally high; as declared it has not begun.
+    type :: roll_search_t
+        logical :: has_begun = .false.   !! was there a step?
+        real(wp) :: roll = 0.0_wp        !! the last one but one, rad
+        real(wp) :: apart = 0.0_wp       !! how far apart the wheels were there, mm
+    end type roll_search_t
 
 contains
 
@@ -153,4 +166,22 @@ contains
 
         is_near = search%misfit <= largest_jump
     end function is_near
+
+    !> The next roll. The first step is that of rigid wheels: the right one goes down with the roll,
+    !> and its height up by as much.
+    pure subroutine next_roll(search, apart, lever, roll)
+        type(roll_search_t), intent(inout) :: search !! remembers this step
+        real(wp), intent(in) :: apart                !! height of the right wheel less that of the
+                                                     !! left one, mm
+        real(wp), intent(in) :: lever                !! of a wheel about the middle, mm
+        real(wp), intent(inout) :: roll              !! where that was, and where to go, rad
+
+        real(wp) :: step
+
+        step = 0.5_wp*apart/lever
+        if (search%has_begun .and. abs(apart - search%apart) > 0.0_wp) &
+            step = -apart*(roll - search%roll)/(apart - search%apart)
+        search = roll_search_t(.true., roll, apart)
+        roll = roll + max(-most_roll_step, min(step, most_roll_step))
+    end subroutine next_roll
 end module faststrip_wheelset_approach

@@ -7,10 +7,10 @@ module faststrip_wheelset_balance
     use faststrip_geometry_wheel_outline, only: lowest_height
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_approach, only: usual_approach, largest_jump, near_enough, &
-                                           most_growth, equilibrium, most_tries, hertz_power
+                                           most_growth, equilibrium, most_tries, hertz_power, &
+                                           roll_search_t, next_roll, most_roll_step
     use faststrip_wheelset_height, only: set_outline, try_height
     use faststrip_wheelset_loads, only: start_afresh
-    use faststrip_wheelset_roll, only: roll_search_t, next_roll, most_roll_step
     use faststrip_wheelset_share, only: solve_for_share
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheelset_workspace_t, side_right, side_left

@@ -30,6 +30,8 @@ module faststrip_wheelset_derivatives
     integer, parameter :: n_coordinates = 4, n_columns = 2*n_coordinates + 1
     ! Given: in which order they are looked at: the outline for z is that of the solution.
     integer, parameter :: order(n_coordinates) = [1, 3, 4, 2]
+    ! Given: the state itself among its neighbours.
+    integer, parameter :: here = 0
     ! Given: signs of columns in a mirror, and of a wheelset that rolls back.
     real(wp), parameter :: mirrored(n_columns) = [-1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, -1.0_wp, &
                                                   1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp], &
@@ -87,8 +89,7 @@ contains
         type(status_t), intent(inout) :: status
 
         type(wheelset_state_t) :: state
-        type(status_t) :: there_is_none
-        real(wp) :: step(n_columns), forces(6, n_coordinates), here(6), there(6), smallest
+        real(wp) :: step(n_columns), forces(6, n_coordinates), from(6), there(6), smallest
         integer :: i, j
         logical :: by_table
 
@@ -107,47 +108,46 @@ contains
         if (workspace%is_reversed) step = step*reversed
         do j = 1, n_coordinates
             i = order(j)
-            call solve(moved(state, i, step(i)), .false., forces(:, i))
+            call solve(i, .false., forces(:, i))
             if (.not. failed()) cycle
             ! What comes or goes there may not do so on the other side.
             call clear_status(status)
             step(i) = -step(i)
-            call solve(moved(state, i, step(i)), .false., forces(:, i))
+            call solve(i, .false., forces(:, i))
             if (failed()) exit
         end do
-        there_is_none = status
-        call clear_status(status)
-        ! Where none failed the last outline was that for z.
-        call solve(state, .not. is_error(there_is_none), here)
-        if (failed() .or. is_error(there_is_none)) then
-            if (is_error(there_is_none)) status = there_is_none
+        ! The last outline was that for z.
+        if (.not. failed()) call solve(here, .true., from)
+        if (failed()) then
+            if (by_table) return
             ! The solution as it was.
-            if (.not. by_table) &
-                call try_height(model, workspace, as_solved(state), side, state%z, near)
+            call solve(here, .false., from)
+            call try_height(model, workspace, neighbour(here), side, state%z, near)
             return
         end if
         do i = 1, n_coordinates
-            derivatives(:, i) = (forces(:, i) - here)/step(i)
+            derivatives(:, i) = (forces(:, i) - from)/step(i)
         end do
         if (is_at_rest(state) .and. .not. model%speed_floor > 0.0_wp) return
         call turn_back(near)
         do i = n_coordinates + 1, n_columns
-            call move_near(moved(state, i, step(i)), there)
+            call move_near(i, there)
             if (failed()) return
-            derivatives(:, i) = (there - here)/step(i)
+            derivatives(:, i) = (there - from)/step(i)
         end do
         ! What is asked of strips and elements is that of the solution.
-        call move_near(state, there)
+        call move_near(here, there)
 
     contains
 
-        ! A state as it was solved.
-        type(wheelset_state_t) function as_solved(there)
-            type(wheelset_state_t), intent(in) :: there
+        ! A neighbour of the state, or the state, as it was solved.
+        type(wheelset_state_t) function neighbour(i)
+            integer, intent(in) :: i
 
-            as_solved = there
-            if (workspace%is_reversed) as_solved = reversed_state(there)
-        end function as_solved
+            neighbour = state
+            if (i /= here) call move(neighbour, i, step(i))
+            if (workspace%is_reversed) neighbour = reversed_state(neighbour)
+        end function neighbour
 
         ! A wheel between what was solved and what it is.
         subroutine turn_back(there)
@@ -157,38 +157,39 @@ contains
             if (side == side_left) call mirror_wheel(there)
         end subroutine turn_back
 
-        subroutine solve(there, outlined, found)
-            type(wheelset_state_t), intent(in) :: there
+        subroutine solve(i, outlined, found)
+            integer, intent(in) :: i        ! which neighbour
             logical, intent(in) :: outlined ! is the outline of the wheel that of the state?
             real(wp), intent(out) :: found(6)
 
+            type(wheelset_state_t) :: there
             real(wp) :: touch
             logical :: is_there
 
+            there = neighbour(i)
             if (by_table) then
-                call try_table(model, workspace, as_solved(there), side, there%z, near, is_there)
+                call try_table(model, workspace, there, side, there%z, near, is_there)
                 if (.not. is_there) &
                     call set_status(status, st_no_convergence, 'the table ends at this state')
             else
-                if (.not. outlined) &
-                    call set_outline(model, workspace, as_solved(there), side, touch, status)
-                call try_height(model, workspace, as_solved(there), side, there%z, near, finest)
+                if (.not. outlined) call set_outline(model, workspace, there, side, touch, status)
+                call try_height(model, workspace, there, side, there%z, near, finest)
             end if
             call turn_back(near)
             found = [near%force, near%moment]
         end subroutine solve
 
         ! The same pressures, moving otherwise; a table is asked for the state.
-        subroutine move_near(moving, found)
-            type(wheelset_state_t), intent(in) :: moving
+        subroutine move_near(i, found)
+            integer, intent(in) :: i
             real(wp), intent(out) :: found(6)
 
             if (by_table) then
-                call solve(moving, .true., found)
+                call solve(i, .true., found)
                 return
             end if
             call move_wheel(model, model%pair(side), workspace%wheel(side), &
-                            as_right(as_solved(moving), side), state%z, near)
+                            as_right(neighbour(i), side), state%z, near)
             call turn_back(near)
             found = [near%force, near%moment]
             call turn_back(near)
@@ -200,27 +201,31 @@ contains
         end function failed
     end subroutine find_of_wheel
 
-    ! A state whose i-th coordinate or rate is larger by a step.
-    pure type(wheelset_state_t) function moved(state, i, step)
-        type(wheelset_state_t), intent(in) :: state
+    ! Let the i-th coordinate or rate of a state be larger by a step.
+    pure subroutine move(state, i, step)
+        type(wheelset_state_t), intent(inout) :: state
         integer, intent(in) :: i
         real(wp), intent(in) :: step
 
-        real(wp) :: change(n_columns)
-
-        change = 0.0_wp
-        change(i) = step
-        moved = state
-        associate (rate => change(n_coordinates + 1:))
-            moved%y = state%y + change(1)
-            moved%z = state%z + change(2)
-            moved%roll = state%roll + change(3)
-            moved%yaw = state%yaw + change(4)
-            moved%y_rate = state%y_rate + rate(1)
-            moved%z_rate = state%z_rate + rate(2)
-            moved%roll_rate = state%roll_rate + rate(3)
-            moved%yaw_rate = state%yaw_rate + rate(4)
-            moved%pitch_rate = state%pitch_rate + rate(5)
-        end associate
-    end function moved
+        select case (i)
+        case (1)
+            state%y = state%y + step
+        case (2)
+            state%z = state%z + step
+        case (3)
+            state%roll = state%roll + step
+        case (4)
+            state%yaw = state%yaw + step
+        case (5)
+            state%y_rate = state%y_rate + step
+        case (6)
+            state%z_rate = state%z_rate + step
+        case (7)
+            state%roll_rate = state%roll_rate + step
+        case (8)
+            state%yaw_rate = state%yaw_rate + step
+        case default
+            state%pitch_rate = state%pitch_rate + step
+        end select
+    end subroutine move
 end module faststrip_wheelset_derivatives

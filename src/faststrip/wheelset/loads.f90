@@ -8,10 +8,9 @@ module faststrip_wheelset_loads
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, is_near, usual_approach, equilibrium, &
-                                           near_enough
+                                           near_enough, roll_search_t, next_roll
     use faststrip_wheelset_height, only: set_outline, try_height, as_right
     use faststrip_wheelset_lookup, only: look_up_at_load
-    use faststrip_wheelset_roll, only: roll_search_t, next_roll
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheel_result_t, wheel_workspace_t, wheelset_workspace_t, &
                                         path_t, side_right, side_left

@@ -42,11 +42,12 @@ contains
         integer(c_int), intent(out) :: info          !! status
 
         type(wheelset_handle_t), pointer :: handle
+        real(c_double) :: found(6, 9, 2)
 
         call find_wheelset(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
-        call wheelset_derivatives(handle)
+        call wheelset_derivatives(handle, found)
         info = handle%status%code
-        if (info < first_error) d = handle%derivatives
+        if (info < first_error) d = found
     end subroutine fswdrv
 end module faststrip_interop_f77_derivatives
