@@ -13,7 +13,8 @@ module faststrip_numerics_byte_stream
 
     !> Bytes that belong to the caller, and where a walk is in them.
     type :: byte_stream_t
-        integer(int8), pointer, contiguous :: bytes(:) => null() !! if null, numbers are counted only
+        integer(int8), pointer, contiguous :: bytes(:) => null()
+            !! if null, numbers are counted only
         integer(int64) :: at = 0      !! bytes before the next number
         logical :: is_read = .false.  !! are numbers read, or written?
         logical :: fits = .true.      !! were there bytes enough, and counts that can be?

@@ -207,25 +207,20 @@ contains
         integer, intent(in) :: i
         real(wp), intent(in) :: step
 
-        select case (i)
-        case (1)
-            state%y = state%y + step
-        case (2)
-            state%z = state%z + step
-        case (3)
-            state%roll = state%roll + step
-        case (4)
-            state%yaw = state%yaw + step
-        case (5)
-            state%y_rate = state%y_rate + step
-        case (6)
-            state%z_rate = state%z_rate + step
-        case (7)
-            state%roll_rate = state%roll_rate + step
-        case (8)
-            state%yaw_rate = state%yaw_rate + step
-        case default
-            state%pitch_rate = state%pitch_rate + step
-        end select
+        real(wp) :: change(n_columns)
+
+        change = 0.0_wp
+        change(i) = step
+        associate (rate => change(n_coordinates + 1:))
+            state%y = state%y + change(1)
+            state%z = state%z + change(2)
+            state%roll = state%roll + change(3)
+            state%yaw = state%yaw + change(4)
+            state%y_rate = state%y_rate + rate(1)
+            state%z_rate = state%z_rate + rate(2)
+            state%roll_rate = state%roll_rate + rate(3)
+            state%yaw_rate = state%yaw_rate + rate(4)
+            state%pitch_rate = state%pitch_rate + change(n_columns)
+        end associate
     end subroutine move
 end module faststrip_wheelset_derivatives
