@@ -489,9 +489,9 @@ thermal
     def use_lookup(self, table: Optional[WheelLookup], *, order: str = "cubic") -> None:
         """Let a table answer where it reaches; strips do beyond its ends.
 
-        A wheel that rolls by more than 5e-4 rad over its rail is beyond, too.
-        A wheel that it answers for has an ``n_solutions`` of 0, and contacts without ends, strips,
-        estimates and derivatives.
+        A wheel that rolls by more than 5e-4 rad over its rail is beyond, too. Before an end both
+        share the forces, so that none jumps. A wheel that it alone answers for has an
+        ``n_solutions`` of 0, and contacts without ends, strips and estimates.
 
         Parameters
         ----------

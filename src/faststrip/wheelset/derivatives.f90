@@ -7,7 +7,8 @@
 !> side is taken. Edges of strips stay, too: where they would follow the gap that is up to 1.4e-3 of
 !> the largest of a column, else derivatives are within 1e-5. Over the rates pressures stay, and
 !> only the creep forces are found again. Derivatives of a wheel that a table answers for are those
-!> of the table between its nodes: it is asked for each neighbour.
+!> of the table between its nodes: it is asked for each neighbour. Where it hands over to strips
+!> both are, also over the rates.
 module faststrip_wheelset_derivatives
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
@@ -55,7 +56,7 @@ contains
                                                                    !! where not asked for
         type(status_t), intent(out) :: status
             !! those of `check_differentiable`; `st_bad_argument`: no solution;
-            !! `st_no_convergence`: contacts or patches come or go at this state, or the table ends
+            !! `st_no_convergence`: contacts or patches come or go at this state
 
         type(environment_t) :: environment
         type(wheel_result_t), allocatable :: near(:)
@@ -91,11 +92,11 @@ contains
         type(wheelset_state_t) :: state
         real(wp) :: step(n_columns), forces(6, n_coordinates), from(6), there(6), smallest
         integer :: i, j
-        logical :: by_table
+        real(wp) :: share
 
-        by_table = wheel%solutions == 0
         state = workspace%last_state
         state%z = wheel%z
+        call try_table(model, neighbour(here), side, state%z, near, share)
         smallest = minval(wheel%contact(:wheel%n)%figures%normal%penetration)
         step(1:2) = difference_step(smallest)
         step(3) = step(1)/model%pair(side)%y_line
@@ -119,7 +120,7 @@ contains
         ! The last outline was that for z.
         if (.not. failed()) call solve(here, .true., from)
         if (failed()) then
-            if (by_table) return
+            if (share >= 1.0_wp) return
             ! The solution as it was.
             call solve(here, .false., from)
             call try_height(model, workspace, neighbour(here), side, state%z, near)
@@ -164,13 +165,14 @@ contains
 
             type(wheelset_state_t) :: there
             real(wp) :: touch
-            logical :: is_there
+            real(wp) :: share_there
 
             there = neighbour(i)
-            if (by_table) then
-                call try_table(model, workspace, there, side, there%z, near, is_there)
-                if (.not. is_there) &
-                    call set_status(status, st_no_convergence, 'the table ends at this state')
+            if (share >= 1.0_wp) then
+                call try_table(model, there, side, there%z, near, share_there)
+                if (share_there < 1.0_wp) &
+                    call set_status(status, st_no_convergence, &
+                                    'strips take over from the table at this state')
             else
                 if (.not. outlined) call set_outline(model, workspace, there, side, touch, status)
                 call try_height(model, workspace, there, side, there%z, near, finest)
@@ -179,12 +181,13 @@ contains
             found = [near%force, near%moment]
         end subroutine solve
 
-        ! The same pressures, moving otherwise; a table is asked for the state.
+        ! The same pressures, moving otherwise; where a table has its share it is asked for the
+        ! state.
         subroutine move_near(i, found)
             integer, intent(in) :: i
             real(wp), intent(out) :: found(6)
 
-            if (by_table) then
+            if (share > 0.0_wp) then
                 call solve(i, .true., found)
                 return
             end if

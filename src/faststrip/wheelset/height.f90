@@ -1,4 +1,5 @@
-!> A wheel at a height: its outline, and the forces of all its contacts.
+!> A wheel at a height: its outline, and the forces of all its contacts, by strips, by its table,
+!> or by both where the one hands over to the other.
 module faststrip_wheelset_height
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, number_text, st_no_contact
@@ -7,11 +8,19 @@ module faststrip_wheelset_height
     use faststrip_wheelset_lookup, only: look_up_at_height
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, wheel_result_t, &
                                         side_right, side_left
-    use faststrip_wheelset_wheel, only: solve_wheel_at
+    use faststrip_wheelset_wheel, only: solve_wheel_at, add_contacts
     implicit none
     private
 
     public :: set_outline, try_height, try_table, as_right
+    public :: wheel_sums_t, sums_of, hand_over
+
+    !> The sums of a wheel.
+    type :: wheel_sums_t
+        real(wp) :: force(3) = 0.0_wp           !! as of `wheel_result_t`, N
+        real(wp) :: force_wheelset(3) = 0.0_wp  !! the same, N
+        real(wp) :: moment(3) = 0.0_wp          !! the same, N mm
+    end type wheel_sums_t
 
 contains
 
@@ -43,20 +52,17 @@ contains
     end function as_right
 
     !> One wheel at a height by its table.
-    subroutine try_table(model, workspace, state, side, z, wheel, is_there)
-        type(wheelset_model_t), intent(in) :: model            !! made
-        type(wheelset_workspace_t), intent(inout) :: workspace !! reserved for it
-        type(wheelset_state_t), intent(in) :: state            !! its z does not count, mm, rad
-        integer, intent(in) :: side                            !! `side_right` or `side_left`
-        real(wp), intent(in) :: z                              !! of the wheelset's centre, mm
-        type(wheel_result_t), intent(inout) :: wheel           !! as of a right wheel
-        logical, intent(out) :: is_there                       !! has it a table that reaches there?
+    subroutine try_table(model, state, side, z, wheel, share)
+        type(wheelset_model_t), intent(in) :: model  !! made
+        type(wheelset_state_t), intent(in) :: state  !! its z does not count, mm, rad
+        integer, intent(in) :: side                  !! `side_right` or `side_left`
+        real(wp), intent(in) :: z                    !! of the wheelset's centre, mm
+        type(wheel_result_t), intent(inout) :: wheel !! as of a right wheel
+        real(wp), intent(out) :: share               !! that the table has there, 0: none
 
-        is_there = associated(model%lookup)
-        if (is_there) call look_up_at_height(model, model%pair(side), as_right(state, side), z, &
-                                             wheel, is_there)
-        ! What strips left behind is of another state.
-        if (is_there) workspace%wheel(side)%n = 0
+        share = 0.0_wp
+        if (associated(model%lookup)) &
+            call look_up_at_height(model, model%pair(side), as_right(state, side), z, wheel, share)
     end subroutine try_table
 
     !> One wheel at a height, by its table where that reaches, without estimates.
@@ -70,14 +76,44 @@ contains
         real(wp), intent(in), optional :: neighbour            !! as of `solve_wheel_at`
         logical, intent(in), optional :: by_strips             !! if present no table is asked
 
-        logical :: is_there
+        type(wheel_sums_t) :: sums
+        real(wp) :: share
 
-        is_there = .false.
-        if (.not. (present(neighbour) .or. present(by_strips))) &
-            call try_table(model, workspace, state, side, z, wheel, is_there)
-        if (is_there) return
+        share = 0.0_wp
+        if (.not. present(by_strips)) call try_table(model, state, side, z, wheel, share)
+        if (share >= 1.0_wp .and. .not. present(neighbour)) then
+            ! What strips left behind is of another state.
+            workspace%wheel(side)%n = 0
+            return
+        end if
+        if (share > 0.0_wp) sums = sums_of(wheel)
         call solve_wheel_at(model, model%pair(side), workspace%wheel(side), &
                             as_right(state, side), z, wheel, neighbour)
         wheel%z = z
+        if (share > 0.0_wp) call hand_over(sums, share, wheel)
     end subroutine try_height
+
+    !> The sums of a wheel.
+    pure type(wheel_sums_t) function sums_of(wheel)
+        type(wheel_result_t), intent(in) :: wheel !! solved
+
+        sums_of = wheel_sums_t(wheel%force, wheel%force_wheelset, wheel%moment)
+    end function sums_of
+
+    !> Strips and a table share the forces of a wheel. What the table adds is of the contact that
+    !> carries most.
+    pure subroutine hand_over(sums, share, wheel)
+        type(wheel_sums_t), intent(in) :: sums       !! of the table
+        real(wp), intent(in) :: share                !! that it has, 0 to 1
+        type(wheel_result_t), intent(inout) :: wheel !! by strips; gets the sums of both
+
+        if (wheel%n == 0) return
+        associate (contact => wheel%contact(maxloc(wheel%contact(:wheel%n)%force(3), dim=1)))
+            contact%force = contact%force + share*(sums%force - wheel%force)
+            contact%force_wheelset = contact%force_wheelset &
+                                     + share*(sums%force_wheelset - wheel%force_wheelset)
+            contact%moment = contact%moment + share*(sums%moment - wheel%moment)
+        end associate
+        call add_contacts(wheel)
+    end subroutine hand_over
 end module faststrip_wheelset_height

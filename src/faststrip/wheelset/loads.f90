@@ -9,7 +9,8 @@ module faststrip_wheelset_loads
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, is_near, usual_approach, equilibrium, &
                                            near_enough, roll_search_t, next_roll
-    use faststrip_wheelset_height, only: set_outline, try_height, as_right
+    use faststrip_wheelset_height, only: set_outline, try_height, as_right, wheel_sums_t, &
+                                         sums_of, hand_over
     use faststrip_wheelset_lookup, only: look_up_at_load
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheel_result_t, wheel_workspace_t, wheelset_workspace_t, &
@@ -78,16 +79,20 @@ contains
         type(status_t), intent(inout) :: status
 
         type(approach_search_t) :: search
-        real(wp) :: touch, load
-        logical :: is_warm, is_there
+        type(wheel_sums_t) :: sums
+        real(wp) :: touch, load, share, height
+        logical :: is_warm
 
+        share = 0.0_wp
         load = demand%load(side)
         if (associated(model%lookup) .and. load > 0.0_wp) then
-            call look_up_at_load(model, model%pair(side), as_right(state, side), load, wheel, &
-                                 is_there)
-            if (is_there) then
+            call look_up_at_load(model, model%pair(side), as_right(state, side), load, wheel, share)
+            if (share >= 1.0_wp) then
                 call forget_strips(workspace%wheel(side))
                 return
+            else if (share > 0.0_wp) then
+                sums = sums_of(wheel)
+                height = wheel%z
             end if
         end if
         call set_outline(model, workspace, state, side, touch, status)
@@ -129,6 +134,9 @@ contains
         workspace%wheel(side)%approach = search%best
         workspace%wheel(side)%slope = search%slope
         wheel%z = touch + search%best
+        if (.not. share > 0.0_wp) return
+        wheel%z = wheel%z + share*(height - wheel%z)
+        call hand_over(sums, share, wheel)
     end subroutine solve_load
 
     ! A wheel that just touches carries nothing.

@@ -4,6 +4,10 @@
 !> moved, the table is asked for the wheelset that has the wheel's point of contact where it is, and
 !> no roll to the rail: what is left out is that the wheel's profile is inclined by the roll, which
 !> moves the contact by the roll over the difference of curvatures.
+!>
+!> Strips take over before a table ends: from a quarter of its last cell on along y, yaw and load,
+!> and over the last fifth of the roll, its share in forces, moments and heights falls to 0 at the
+!> end, linearly.
 module faststrip_wheelset_lookup
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, clear_status, is_error
@@ -13,6 +17,7 @@ module faststrip_wheelset_lookup
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_origin, turned
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, rail_state_t, &
                                                  wheelset_axes
+    use faststrip_lookup_axis, only: lookup_axis_t
     use faststrip_lookup_faces, only: n_forces
     use faststrip_lookup_table, only: n_contact_numbers, most_slots, at_load, at_angle, &
                                       at_rail_y, at_rail_z, at_ahead, at_wheel_y, at_radius, &
@@ -33,6 +38,11 @@ module faststrip_wheelset_lookup
     ! answer. Origin: measured: up to 0.4 mrad forces keep a promise of 0.03, with 1 mrad they miss
     ! strips by 0.06.
     real(wp), parameter :: largest_tilt = 5.0e-4_wp
+    ! Tuned [rad]: over which it hands over to strips before. Origin: that measurement.
+    real(wp), parameter :: tilt_way = 1.0e-4_wp
+    ! Tuned [cells]: of an end, over which the table does. Origin: chosen: what it misses, 1 % of a
+    ! load, moves forces by less than a lateral displacement does.
+    real(wp), parameter :: end_way = 0.25_wp
     ! Tuned [rad]: yaw beyond a table's ends that counts as that of the end. Origin: chosen: above
     ! the steps of derivatives, and places move with it by less than 0.1 um.
     real(wp), parameter :: yaw_beside = 1.0e-7_wp
@@ -45,30 +55,31 @@ module faststrip_wheelset_lookup
 contains
 
     !> A wheel at a height.
-    subroutine look_up_at_height(model, pair, state, z, wheel, is_there)
+    subroutine look_up_at_height(model, pair, state, z, wheel, share)
         type(wheelset_model_t), intent(in) :: model  !! made, with its table
         type(wheel_on_rail_t), intent(in) :: pair    !! of this side
         type(wheelset_state_t), intent(in) :: state  !! as of a right wheel; its z does not count
         real(wp), intent(in) :: z                    !! of the wheelset's centre, mm
         type(wheel_result_t), intent(inout) :: wheel !! as of a right wheel, if it is there
-        logical, intent(out) :: is_there             !! is the state within the table?
+        real(wp), intent(out) :: share               !! that it has: 0, beyond the table, to 1
 
         real(wp) :: load, height, contacts(n_contact_numbers, most_slots), place(n_wheel_place)
 
         height = z
         load = 0.0_wp
-        call find_place(model, pair, state, .false., load, height, place, contacts, is_there)
-        if (is_there) call find_forces(model, pair, state, place, height, contacts, wheel, is_there)
+        call find_place(model, pair, state, .false., load, height, place, contacts, share)
+        if (share > 0.0_wp) call find_forces(model, pair, state, place, height, contacts, wheel, &
+                                             share)
     end subroutine look_up_at_height
 
     !> A wheel that carries a load: the vertical part of all its forces, on the rail.
-    subroutine look_up_at_load(model, pair, state, wanted, wheel, is_there)
+    subroutine look_up_at_load(model, pair, state, wanted, wheel, share)
         type(wheelset_model_t), intent(in) :: model  !! made, with its table
         type(wheel_on_rail_t), intent(in) :: pair    !! of this side
         type(wheelset_state_t), intent(in) :: state  !! as of a right wheel; its z does not count
         real(wp), intent(in) :: wanted               !! above 0, N
         type(wheel_result_t), intent(inout) :: wheel !! as of a right wheel, if it is there
-        logical, intent(out) :: is_there             !! is it within the table?
+        real(wp), intent(out) :: share               !! that it has: 0, beyond the table, to 1
 
         real(wp) :: load, height, contacts(n_contact_numbers, most_slots), place(n_wheel_place)
         real(wp) :: miss, load_before, miss_before, slope
@@ -80,10 +91,10 @@ contains
         miss_before = -wanted
         do i = 1, most_tries
             height = 0.0_wp
-            call find_place(model, pair, state, .true., load, height, place, contacts, is_there)
-            if (is_there) call find_forces(model, pair, state, place, height, contacts, wheel, &
-                                           is_there)
-            if (.not. is_there) return
+            call find_place(model, pair, state, .true., load, height, place, contacts, share)
+            if (share > 0.0_wp) call find_forces(model, pair, state, place, height, contacts, &
+                                                 wheel, share)
+            if (.not. share > 0.0_wp) return
             miss = wheel%force(3) - wanted
             if (abs(miss) <= near_enough*wanted) return
             slope = (miss - miss_before)/(load - load_before)
@@ -91,11 +102,11 @@ contains
             miss_before = miss
             load = load - miss/slope
         end do
-        is_there = .false.
+        share = 0.0_wp
     end subroutine look_up_at_load
 
     ! Where the table has the wheel, and its contacts there: from the height to the load, or back.
-    subroutine find_place(model, pair, state, is_given, load, z, place, contacts, is_there)
+    subroutine find_place(model, pair, state, is_given, load, z, place, contacts, share)
         type(wheelset_model_t), intent(in) :: model
         type(wheel_on_rail_t), intent(in) :: pair
         type(wheelset_state_t), intent(in) :: state
@@ -103,16 +114,17 @@ contains
         real(wp), intent(inout) :: load, z
         real(wp), intent(out) :: place(n_wheel_place)
         real(wp), intent(out) :: contacts(n_contact_numbers, most_slots)
-        logical, intent(out) :: is_there
+        real(wp), intent(out) :: share
 
         type(status_t) :: status
         real(wp) :: centre(2), design(2), lies(2), arm(2), moved(2), tilt, yaw
         integer :: pass, passes, main
+        logical :: is_there
 
         associate (rail => state%rail(1))
             tilt = state%roll - rail%roll
-            is_there = abs(tilt) <= largest_tilt
-            if (.not. is_there) return
+            share = 0.0_wp
+            if (.not. abs(tilt) <= largest_tilt) return
             passes = 1
             if (max(abs(tilt), abs(rail%roll)) > 0.0_wp) passes = roll_passes
             yaw = state%yaw
@@ -136,8 +148,7 @@ contains
                 if (is_there) is_there = is_in_table(model%lookup, place)
                 if (.not. is_there) return
                 call look_up_contacts(model%lookup, model%lookup_order, place, contacts, status)
-                is_there = .not. is_error(status)
-                if (.not. is_there) return
+                if (is_error(status)) return
                 main = maxloc(contacts(at_load, :), dim=1)
                 arm = [pair%y_line + contacts(at_wheel_y, main), contacts(at_radius, main)]
                 if (.not. is_given) cycle
@@ -145,23 +156,40 @@ contains
                 centre = turned(centre - design, rail%roll) + lies
                 z = centre(2) + model%radius
             end do
+            associate (wheel => model%lookup%wheel)
+                share = min(1.0_wp, (largest_tilt - abs(tilt))/tilt_way, &
+                            share_along(wheel%y, place(1)), share_along(wheel%yaw, place(2)), &
+                            share_along(wheel%load, place(3)))
+            end associate
         end associate
     end subroutine find_place
 
+    ! How far a place is from the nearer end of an axis, over the way of the hand-over. An axis of
+    ! one node has none.
+    pure real(wp) function share_along(axis, x) result(share)
+        type(lookup_axis_t), intent(in) :: axis
+        real(wp), intent(in) :: x ! within the axis
+
+        share = 1.0_wp
+        if (axis%n > 1) &
+            share = min((x - axis%x(1))/(axis%x(2) - axis%x(1)), &
+                        (axis%x(axis%n) - x)/(axis%x(axis%n) - axis%x(axis%n - 1)))/end_way
+    end function share_along
+
     ! Creepages, forces and moments of all contacts, along y.
-    subroutine find_forces(model, pair, state, place, z, contacts, wheel, is_there)
+    subroutine find_forces(model, pair, state, place, z, contacts, wheel, share)
         type(wheelset_model_t), intent(in) :: model
         type(wheel_on_rail_t), intent(in) :: pair
         type(wheelset_state_t), intent(in) :: state
         real(wp), intent(in) :: place(n_wheel_place), z, contacts(n_contact_numbers, most_slots)
         type(wheel_result_t), intent(inout) :: wheel
-        logical, intent(out) :: is_there
+        real(wp), intent(inout) :: share ! 0: there are none
 
         type(wheelset_state_t) :: lowered
         type(wheelset_axes_t) :: axes
         type(contact_case_t) :: case
         integer :: slot
-        logical :: rest(most_slots)
+        logical :: rest(most_slots), is_there
 
         lowered = state
         lowered%z = z
@@ -179,10 +207,11 @@ contains
             wheel%contact(wheel%n) = wheel_contact_t()
             call find_contact(model, pair, lowered, axes, place, slot, contacts(:, slot), case, &
                               wheel%contact(wheel%n), is_there)
+            if (.not. is_there) share = 0.0_wp
             if (.not. is_there) return
         end do
         call add_contacts(wheel)
-        is_there = wheel%n > 0
+        if (wheel%n == 0) share = 0.0_wp
     end subroutine find_forces
 
     subroutine find_contact(model, pair, state, axes, place, slot, numbers, case, contact, is_there)

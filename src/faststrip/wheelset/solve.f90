@@ -624,14 +624,16 @@ contains
         type(wheelset_result_t), intent(inout) :: result
         type(status_t), intent(inout) :: status
 
-        real(wp) :: touch
+        real(wp) :: touch, share
         integer :: side
-        logical :: is_there
 
         do side = side_right, side_left
             if (.not. demand%wants(side)) cycle
-            call try_table(model, workspace, state, side, state%z, result%wheel(side), is_there)
-            if (is_there) cycle
+            call try_table(model, state, side, state%z, result%wheel(side), share)
+            if (share >= 1.0_wp) then
+                workspace%wheel(side)%n = 0
+                cycle
+            end if
             call set_outline(model, workspace, state, side, touch, status)
             if (is_error(status)) return
             call try_height(model, workspace, state, side, state%z, result%wheel(side))

@@ -73,7 +73,8 @@ module faststrip_wheelset_types
         real(wp) :: profile_accuracy = standard_accuracy
             !! of the heights of profiles, for `est_err_load`, mm
         type(lookup_t), pointer :: lookup => null()
-            !! of `enter_lookup`, the caller's: answers within its ends, strips beyond; null: none
+            !! of `enter_lookup`, the caller's: answers within its ends, strips beyond, both before
+            !! an end; null: none
         integer :: lookup_order = lookup_cubic    !! of its interpolation
     end type wheelset_model_t
 
@@ -133,7 +134,7 @@ module faststrip_wheelset_types
         real(wp) :: moment(3) = 0.0_wp                   !! about the wheelset's centre, in the
                                                          !! track, N mm
         integer :: solutions = 0                         !! contact problems that were solved; 0 of
-                                                         !! a wheel that a table has answered for
+                                                         !! a wheel that a table alone answers for
     end type wheel_result_t
 
     !> Figures of a wheelset.
