@@ -91,7 +91,7 @@ class Vehicle(HostTest):
         self.write("wheel.nml", "&wheel profile = 's1002' /\n&rail profile = '60e1' /\n"
                    "&material mu = 0.3 /\n")
         self.shell(f"'{self.installed.prefix}/bin/faststrip' lookup wheel wheel.nml -o wheel.fslt"
-                   " --error 0.1 --y 0:1 --yaw -6e-4:6e-4 --load 50000:130000 --tests 299 2>&1")
+                   " --error 0.1 --y 0:1 --yaw -2e-3:2e-3 --load 50000:130000 --tests 299 2>&1")
         motions = self.motions(self.bogie.Track())
         table = self.contact.ByWheelset("table", self.folder / "wheel.fslt")
         state = motions.start()
