@@ -459,6 +459,9 @@ typedef struct faststrip_wheelset_setup {
                            * never pull; that of Hunt and Crossley, 3/2 alpha; 0: none */
     double speed_floor;   /* of rolling speeds, mm/s: well below it friction grows with the slip
                            * velocities, so that it vanishes at rest; 0: none */
+    double rail_stiffness_y; /* of springs below each rail, N/mm, 0: rigid: a rail without mass is
+                           * displaced, beside where the state has it, by the force over it */
+    double rail_stiffness_z; /* the same, down */
 } faststrip_wheelset_setup;
 
 /* A profile, also of a left wheel or rail as one of the right side: a name, of wheels s1002, cone20

@@ -662,7 +662,7 @@ static void wheelsets_that_are_none(void)
     setup.size += 8;
     MAKES(FASTSTRIP_BAD_ARGUMENT, "the header is newer");
     setup.size -= 24;
-    MAKES(FASTSTRIP_BAD_ARGUMENT, "96 bytes that faststrip_default_wheelset sets, got 80");
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "112 bytes that faststrip_default_wheelset sets, got 96");
     setup.size += 16;
     setup.gauge = NAN;
     MAKES(FASTSTRIP_NOT_FINITE, "finite");
@@ -673,6 +673,9 @@ static void wheelsets_that_are_none(void)
     setup.speed_floor = -1.0;
     MAKES(FASTSTRIP_BAD_ARGUMENT, "floor of the speed");
     setup.speed_floor = 0.0;
+    setup.rail_stiffness_z = -1.0;
+    MAKES(FASTSTRIP_BAD_ARGUMENT, "the stiffness below a rail");
+    setup.rail_stiffness_z = 0.0;
     setup.roller_radius = 20.0;
     MAKES(FASTSTRIP_BAD_ARGUMENT, "radius of the rollers must be above");
     setup.roller_radius = 0.0;

@@ -39,8 +39,9 @@ C     as bits.
         END IF
         CALL FSWNEW(IOPT, PAR, SETUP, NPROF, Y, Z, IWORK, 8, INFO)
         IF (INFO .NE. 0) STOP 1
-C         The second one has contact damping.
+C         The second one has contact damping, and springs below rails.
         IF (IC .EQ. 2) CALL FSDAMP(IWORK, 1.0D-3, 100.0D0, INFO)
+        IF (IC .EQ. 2) CALL FSSPRI(IWORK, 3.0D4, 8.0D4, INFO)
         DO 30 I = 1, 11
           S(I) = 0.0D0
    30   CONTINUE

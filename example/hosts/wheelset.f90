@@ -82,6 +82,7 @@ contains
         call make_wheelset(wheels, rails, wheelset_t(), 460.25_wp, track, case, model, status)
         if (setup == 2) model%damping = 1.0e-3_wp
         if (setup == 2) model%speed_floor = 100.0_wp
+        if (setup == 2) model%rail_stiffness = [3.0e4_wp, 8.0e4_wp]
         call reserve_wheelset(workspace, model, status)
     end subroutine make
 

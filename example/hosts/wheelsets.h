@@ -47,6 +47,8 @@ static faststrip_wheelset *make_wheelset(int of_points)
         setup.rail_distance = 1500.0;
         setup.damping = 1e-3;
         setup.speed_floor = 100.0;
+        setup.rail_stiffness_y = 3e4;
+        setup.rail_stiffness_z = 8e4;
         wheels[0].name = rails[0].name = NULL;
         wheels[0].y = rails[0].y = points_y;
         wheels[0].z = points_wheel;

@@ -77,7 +77,7 @@ class Setup(ctypes.Structure):
     _fields_ = [("size", c_size_t), *members(
         c_double, "radius_right", "radius_left", "back_spacing", "tread_line", "gauge",
         "gauge_depth", "rail_distance", "inclination", "roller_radius", "damping",
-        "speed_floor")]
+        "speed_floor", "rail_stiffness_y", "rail_stiffness_z")]
 
 
 class Rail(ctypes.Structure):
@@ -377,6 +377,9 @@ class Wheelset:
     speed_floor : float
         Of rolling speeds, mm/s: well below it friction grows with the slip velocities, so that it
         vanishes at rest.
+    rail_stiffness : two floats
+        Of springs below each rail, along y and z, N/mm; 0 is rigid. Such a rail has no mass: it is
+        displaced, beside where ``solve`` has it, by the force over the stiffness.
     mu : float
         Coefficient of friction.
     friction, material, normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, \
@@ -399,7 +402,8 @@ thermal
                  tread_line: float = 70.0, gauge: float = 1435.0, gauge_depth: float = 14.0,
                  rail_distance: Optional[float] = None, inclination: Optional[float] = None,
                  cant: Optional[float] = None, roller_radius: float = 0.0, damping: float = 0.0,
-                 speed_floor: float = 0.0, mu: float = 0.3,
+                 speed_floor: float = 0.0,
+                 rail_stiffness: Tuple[float, float] = (0.0, 0.0), mu: float = 0.3,
                  friction: Friction = CONSTANT, material: Material = STEEL, normal: str = "strip",
                  tangential: str = "faststrip", strips_per_patch: int = 15,
                  points_per_strip: int = 15, fastsim_grid: Tuple[int, int] = (50, 50),
@@ -426,6 +430,9 @@ thermal
         setup.roller_radius = number("roller_radius", roller_radius)
         setup.damping = number("damping", damping)
         setup.speed_floor = number("speed_floor", speed_floor)
+        setup.rail_stiffness_y, setup.rail_stiffness_z = numbers(
+            ("rail_stiffness[0]", "rail_stiffness[1]"),
+            several("rail_stiffness", rail_stiffness, "along y and z", (2,)))
         handle = Handle(library.faststrip_wheelset_free)
         told(library.faststrip_wheelset_new, ctypes.byref(setup), wheels, rails,
              ctypes.byref(case), ctypes.byref(handle.handle))

@@ -35,6 +35,27 @@ class Derivatives(HostTest):
                     self.assertLess(abs(found[side, rows, k] - slope[side, rows]).max(),
                                     apart * size, (name, side))
 
+    def test_rails_on_springs_follow(self):
+        package = self.import_package()
+        for stiffness in (2e4, 6e4), (0.0, 6e4), (2e4, 0.0):
+            wheelset = package.Wheelset(estimate=False, rail_stiffness=stiffness)
+            rest = wheelset.solve(axle_load=1.2e5, **STATE)
+            state = {**STATE, "z": rest.z[0], "roll": rest.roll, "z_rate": 0.0, "roll_rate": 0.0,
+                     "pitch_rate": rest.pitch_rate}
+            found = wheelset.solve(derivatives=True, **state).derivatives
+            # A hard contact over a soft spring.
+            if stiffness[1] > 0.0:
+                self.assertLess(found[:, 2, 1].max(), stiffness[1])
+            for k, (name, step) in enumerate(zip(COORDINATES, STEPS)):
+                up, down = (wheelset.solve(**{**state, name: state[name] + way * 10.0 * step})
+                            for way in (1, -1))
+                slope = np.hstack([up.force - down.force, up.moment - down.moment]) / (20.0 * step)
+                for side in range(2):
+                    for rows in (slice(0, 3), slice(3, 6)):
+                        size = abs(slope[side, rows]).max()
+                        self.assertLess(abs(found[side, rows, k] - slope[side, rows]).max(),
+                                        0.02 * size, (name, side, stiffness))
+
     def test_what_a_contact_gives_over_penetration_and_creepages(self):
         package = self.import_package()
         y = np.linspace(-12.0, 12.0, 241)

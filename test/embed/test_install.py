@@ -17,8 +17,8 @@ NEEDED = {"libopenblas", "libgfortran", "libm", "libmvec", "libgcc_s", "libquadm
 F77_NAMES = set("fstsim fskalk fsherz fsdflt fsinit fsgap fssolv fscont fsstrp fselem fslimt"
                 " fscurv fsgapt"
                 " fserrs fsferr fslset fswant fstakn fsstep fsprof fscopy fsfree fsmsg fslast"
-                " fsints fswdft fswnew fsrail fsptch fsaxle fsprat fsdamp fswslv fswset fswstr"
-                " fswelm fswstw fsroll fsrprf fswcpy fswsav fswrst fswfre fsderv fswdrv"
+                " fsints fswdft fswnew fsrail fsptch fsaxle fsprat fsdamp fsspri fswslv fswset"
+                " fswstr fswelm fswstw fsroll fsrprf fswcpy fswsav fswrst fswfre fsderv fswdrv"
                 " fsfric fsfrtb fswear fsstwr fsheat fsflsh fstemp"
                 " fscfun fsconi fslopn fslfre fslinf fslook fslwin fslcon"
                 " fslwze fswlkp fslwhl fsrdpr fsdoub fsgivn fscrep fsstrs fspeak".split())

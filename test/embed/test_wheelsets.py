@@ -99,7 +99,8 @@ class Interfaces(HostTest):
         numbers = [*right.values(), *left.values(), -0.05]
         self.write("moved.nml", "&wheel\n  profile = 's1002'\n/\n&rail\n  profile = '60e1'\n"
                    "  cant = 0.025\n/\n&material\n  mu = 0.3\n/\n&numerics\n"
-                   "  contact_damping_s_per_mm = 1e-3, speed_floor_mm_s = 50\n/\n")
+                   "  contact_damping_s_per_mm = 1e-3, speed_floor_mm_s = 50\n"
+                   "  rail_stiffness_y_N_mm = 3e4, rail_stiffness_z_N_mm = 8e4\n/\n")
         self.write("moved.csv", "case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N,"
                    f"{','.join(columns)}\nmoved,both,2.5,,0.003,20000,-43.5,120000,"
                    f"{','.join(map(repr, numbers))}\n")
@@ -109,7 +110,7 @@ class Interfaces(HostTest):
         lines = [line for line in text.splitlines() if line[0] != "#"]
         rows = {row["side"]: row for row in csv.DictReader(lines)}
         state = {"y": 2.5, "yaw": 0.003, "speed": 2e4, "pitch_rate": -43.5, "axle_load": 1.2e5}
-        wheelset = package.Wheelset(damping=1e-3, speed_floor=50.0)
+        wheelset = package.Wheelset(damping=1e-3, speed_floor=50.0, rail_stiffness=(3e4, 8e4))
         result = wheelset.solve(right_rail=package.RailState(**right),
                                 left_rail=package.RailState(**left),
                                 pitch_rate_difference=-0.05, **state)
@@ -304,6 +305,54 @@ class Interfaces(HostTest):
         with self.assertRaisesRegex(package.FaststripError, "the wheelset is closed"):
             kept.copy_from(package.Wheelset())
 
+    def test_rails_on_springs(self):
+        package = self.import_package()
+        stiffness = 2e4, 6e4
+        rigid = package.Wheelset(estimate=False)
+        states = [{"y": 0.3, "load": 8e4, "roll": 0.0}, {"y": 4.5, "load": (8e4, 5e4), "roll": 0.0},
+                  {"y": 3.3, "axle_load": 1.2e5}, {"y": 4.9, "axle_load": 1.2e5, "roll": 0.0},
+                  {"y": 0.3, "z": 1.2, "roll": 0.0}, {"y": 5.7, "z": 1.0, "roll": 1e-4},
+                  {"y": -2.0, "load": 7e4, "wheels": "left", "roll": 0.0}]
+        for k in stiffness, (stiffness[0], 0.0), (0.0, stiffness[1]):
+            wheelset = package.Wheelset(estimate=False, rail_stiffness=k)
+            for state in states:
+                state = {"speed": 2e4, "yaw": 4e-3, **state}
+                if k[1] == 0.0 and "z" in state:
+                    state["z"] = 0.05
+                found = wheelset.solve(**state)
+                # Closed: each rail goes by the force over its stiffness.
+                u = [[f / k[i] if k[i] else 0.0 for i, f in enumerate(force[1:])]
+                     for force in found.force]
+                right, left = (package.RailState(*way) for way in u)
+                wanted = rigid.solve(**state, right_rail=right, left_rail=left)
+                near = 2e-6 * abs(found.force).max()
+                self.assertLessEqual(abs(found.force - wanted.force).max(), near, (k, state))
+                self.assertLessEqual(abs(found.moment - wanted.moment).max(), 1e3 * near)
+                self.assertLess(max(abs(a - b) for a, b in zip(found.z, wanted.z)), 1e-7)
+                # In a mirror.
+                if "wheels" in state:
+                    continue
+                mirrored = {**state, "y": -state["y"], "yaw": -state["yaw"]}
+                if "roll" in state:
+                    mirrored["roll"] = -state["roll"]
+                if isinstance(state.get("load"), tuple):
+                    mirrored["load"] = state["load"][::-1]
+                other = wheelset.solve(**mirrored).force[::-1] * [1.0, -1.0, 1.0]
+                self.assertLessEqual(abs(other - found.force).max(), near)
+        # A contact by Hertz' law over a spring: approach and deflection add up.
+        hertz, sprung = (package.Wheelset(normal="hertz", tangential="none", estimate=False, **more)
+                         for more in ({}, {"rail_stiffness": (0.0, 6e4)}))
+        for load in 4e4, 9e4:
+            rest = hertz.solve(load=load, wheels="right", roll=0.0)
+            z = float(rest.z[0]) + load / 6e4
+            found = sprung.solve(z=z, wheels="right", roll=0.0)
+            self.assertAlmostEqual(found.force[0, 2], load, delta=1e-6 * load)
+        air = sprung.solve(z=-1.0, roll=0.0)
+        self.assertEqual((air.contacts, abs(air.force).max()), ((), 0.0))
+        for wrong in (-1.0, 6e4), (6e4, math.nan), (1.0, 2.0, 3.0):
+            with self.assertRaisesRegex(package.FaststripError, "stiffness"):
+                package.Wheelset(rail_stiffness=wrong)
+
     def test_saved_bytes_go_on_alike(self):
         package = self.import_package()
 
@@ -321,7 +370,8 @@ class Interfaces(HostTest):
                  ({"curved": True}, {"load": 6e4}, 5.5, 2e4, 4e-3),
                  ({"normal": "auto", "target": "pmax", "tolerance": 0.05}, {"load": 6e4}, 1.0,
                   2e4, 1e-3),
-                 ({"normal": "hertz", "tangential": "polach"}, {"axle_load": 1e5}, 2.0, 2e4, 0.0))
+                 ({"normal": "hertz", "tangential": "polach"}, {"axle_load": 1e5}, 2.0, 2e4, 0.0),
+                 ({"rail_stiffness": (2e4, 6e4)}, {"load": 6e4}, 0.6, 2e4, 1e-3))
         for made, demand, y, speed, yaw in walks:
             wheelset, later = package.Wheelset(**made), package.Wheelset(**made)
             states = [{"y": y + 0.02 * k * (1 + k % 3), "yaw": yaw, "speed": speed,
@@ -476,22 +526,22 @@ class Interfaces(HostTest):
         wheels = (parts.Points * 2)(parts.points_of("wheel", "s1002", "wheel"))
         rails = (parts.Points * 2)(parts.points_of("rail", "60e1", "rail"))
         case = parts.new_case("strip", "faststrip", 9, 15, (50, 50), False, 0.1, 0.1, False)
-        for size in (0, 80, 88, 95, 96, 100, 104):
+        for size in (0, 80, 96, 111, 112, 116, 120):
             setup, handle = parts.Setup(gauge=1.0), ctypes.c_void_p()
             text = ctypes.create_string_buffer(256)
             known = size == ctypes.sizeof(parts.Setup)
             self.assertEqual(library.faststrip_default_wheelset(point(setup), size),
                              0 if known else 100)
-            self.assertEqual((setup.size, setup.gauge), (96, 1435.0) if known else (0, 1.0))
-            library.faststrip_default_wheelset(point(setup), 96)
+            self.assertEqual((setup.size, setup.gauge), (112, 1435.0) if known else (0, 1.0))
+            library.faststrip_default_wheelset(point(setup), 112)
             setup.size = size
             self.assertEqual(library.faststrip_wheelset_new(
                 point(setup), wheels, rails, point(case), point(handle), text, 256),
                 0 if known else 100)
             self.assertEqual(library.faststrip_wheelset_free(point(handle)), 0)
             if not known:
-                self.assertRegex(text.value.decode(), rf"96 bytes .*got {size}: the header is "
-                                 + ("newer" if size > 96 else "older"))
+                self.assertRegex(text.value.decode(), rf"112 bytes .*got {size}: the header is "
+                                 + ("newer" if size > 112 else "older"))
 
     def test_elements_and_strips_add_up_as_those_of_the_program(self):
         package = self.import_package()
@@ -605,7 +655,7 @@ def make(package, of_points):
         wheel = package.Profile(y, [-k * k / 2000.0 - k / 20.0 for k in y])
         rail = package.Profile(y, [k * k / 600.0 for k in y])
         more = {"rail_distance": 1500.0, "wheel_left": "cone40", "damping": 1e-3,
-                "speed_floor": 100.0}
+                "speed_floor": 100.0, "rail_stiffness": (3e4, 8e4)}
     return package.Wheelset(wheel, rail, radius_left=460.25, cant=0.05, mu=0.35,
                             strips_per_patch=9, with_elements=True, **more)
 

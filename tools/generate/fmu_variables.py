@@ -27,6 +27,7 @@ UNITS = {
     "s/mm": ({"s": 1, "m": -1}, 1e3, 0.0),
     "rad/s": ({"rad": 1, "s": -1}, 1.0, 4e-5),
     "N": ({"kg": 1, "m": 1, "s": -2}, 1.0, 0.0),
+    "N/mm": ({"kg": 1, "s": -2}, 1e3, 0.0),
     "N.mm": ({"kg": 1, "m": 2, "s": -2}, 1e-3, 0.0),
     "MPa": ({"kg": 1, "m": -1, "s": -2}, 1e6, 0.0),
 }
@@ -44,6 +45,8 @@ rail_distance   setup.rail_distance  mm   of the origins of the rails' profiles;
 inclination     setup.inclination    -    tangent of both rails; 999: 1:40 for profiles by name
 damping         setup.damping        s/mm of contacts: share by which forces grow with the approach
 speed_floor     setup.speed_floor    mm/s of rolling speeds: below, friction grows with the slip
+rail_stiffness_y setup.rail_stiffness_y N/mm of a spring below each rail, lateral; 0: rigid
+rail_stiffness_z setup.rail_stiffness_z N/mm of a spring below each rail, vertical; 0: rigid
 mu              contact.mu           -    coefficient of friction
 normal          contact.normal       normal      normal method
 tangential      contact.tangential   tangential  tangential method

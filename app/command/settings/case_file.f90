@@ -60,6 +60,8 @@ contains
             call refuse(group, 'contact_damping_s_per_mm', 'is for wheelsets only', '')
         if (case%speed_floor > 0.0_wp) &
             call refuse(group, 'speed_floor_mm_s', 'is for wheelsets only', '')
+        if (any(case%rail_stiffness > 0.0_wp)) &
+            call refuse(group, 'rail_stiffness_z_N_mm', 'is for wheelsets only', '')
         if (abs(case%profile_accuracy - standard_accuracy) > 0.0_wp) &
             call refuse(group, 'profile_accuracy_um', 'is for wheelsets only', '')
         call read_sweep_group(content, case)

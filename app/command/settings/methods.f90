@@ -28,6 +28,7 @@ module faststrip_command_settings_methods
         real(wp) :: gap_height = standard_gap_height !! largest gap sampled, mm
         real(wp) :: damping = 0.0_wp     !! of a wheelset's contacts, s/mm
         real(wp) :: speed_floor = 0.0_wp !! of its rolling speeds, mm/s
+        real(wp) :: rail_stiffness(2) = 0.0_wp !! below its rails, along y and z, N/mm
         real(wp) :: profile_accuracy = standard_accuracy !! of heights of its profiles, mm
         logical :: tolerance_is_given = .false. !! else it does not count beside a budget
         logical :: target_is_given = .false.    !! else it is pmax where no forces are asked for
@@ -99,6 +100,8 @@ contains
             case ('gap_height_mm'); choice%gap_height = value%number
             case ('contact_damping_s_per_mm'); choice%damping = value%number
             case ('speed_floor_mm_s'); choice%speed_floor = value%number
+            case ('rail_stiffness_y_N_mm'); choice%rail_stiffness(1) = value%number
+            case ('rail_stiffness_z_N_mm'); choice%rail_stiffness(2) = value%number
             case ('profile_accuracy_um'); choice%profile_accuracy = mm_per_um*value%number
             case ('wear_file')
                 call read_wear_law(value%text, choice%wear_law, choice%wear_source, status)

@@ -316,6 +316,11 @@ module faststrip_command_settings_table
         setting_t('numerics', 'speed_floor_mm_s', a_number, &
                   'of a wheelset: rolling speed below which friction grows with slip velocities', &
                   range=from_0, default='0'), &
+        setting_t('numerics', 'rail_stiffness_y_N_mm', a_number, &
+                  'of a wheelset: of a spring below each rail, lateral; 0: rigid', &
+                  range=from_0, default='0'), &
+        setting_t('numerics', 'rail_stiffness_z_N_mm', a_number, &
+                  'the same, vertical', range=from_0, default='0'), &
         setting_t('numerics', 'profile_accuracy_um', a_number, &
                   'of a wheelset: of heights of its profiles, for est_err_load', &
                   range=from_0, default='0.5')]

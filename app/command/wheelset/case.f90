@@ -6,7 +6,7 @@ module faststrip_command_wheelset_case
     use faststrip_contact_methods, only: normal_table, tangential_table, normal_auto, &
                                          normal_method_name, tangential_method_name
     use faststrip_wheelset_types, only: wheelset_model_t, standard_accuracy
-    use faststrip_wheelset_solve, only: make_wheelset, set_damping
+    use faststrip_wheelset_solve, only: make_wheelset, set_damping, set_rail_stiffness
     use faststrip_command_program_console, only: fail_on_error
     use faststrip_command_settings_case_file, only: read_settings, read_thermal_group
     use faststrip_command_settings_friction, only: read_friction_group
@@ -79,6 +79,8 @@ contains
         call fail_on_error(status, path)
         call set_damping(model, case%damping, case%speed_floor, status)
         call fail_on_error(status, path)
+        call set_rail_stiffness(model, case%rail_stiffness, status)
+        call fail_on_error(status, path)
         if (case%gap_height_is_given) model%gap_height = case%gap_height
         model%profile_accuracy = case%profile_accuracy
     end subroutine make_model
@@ -99,6 +101,8 @@ contains
             call refuse(group, 'contact_damping_s_per_mm', 'must not be given for a table', '')
         if (case%speed_floor > 0.0_wp) &
             call refuse(group, 'speed_floor_mm_s', 'must not be given for a table', '')
+        if (any(case%rail_stiffness > 0.0_wp)) &
+            call refuse(group, 'rail_stiffness_z_N_mm', 'must not be given for a table', '')
         if (abs(case%profile_accuracy - standard_accuracy) > 0.0_wp) &
             call refuse(group, 'profile_accuracy_um', 'must not be given for a table', '')
         if (case%smoothing > 0.0_wp) &

@@ -147,6 +147,7 @@ contains
             to%workspace%has_last = from%workspace%has_last
             to%workspace%is_reversed = from%workspace%is_reversed
             to%workspace%stiffness = from%workspace%stiffness
+            to%workspace%deflection = from%workspace%deflection
             to%workspace%path = from%workspace%path
         else
             to%workspace = from%workspace

@@ -17,7 +17,8 @@ module faststrip_interop_wheelset_new
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, allocate_wheelset, &
                                                  allocate_workspace
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_wheelset_solve, only: make_wheelset, set_damping, reserve_wheelset
+    use faststrip_wheelset_solve, only: make_wheelset, set_damping, set_rail_stiffness, &
+                                        reserve_wheelset
     use faststrip_wheelset_types, only: side_right, side_left
     implicit none
     private
@@ -63,15 +64,19 @@ contains
     end function default_dimensions
 
     !> Make a wheelset on its track. The one allocation.
-    subroutine new_wheelset(wheels, rails, dimensions, case, number, status, damping, speed_floor)
+    subroutine new_wheelset(wheels, rails, dimensions, case, number, status, damping, speed_floor, &
+                            rail_stiffness)
         type(profile_source_t), intent(in) :: wheels(2) !! right and left, both as a right wheel
         type(profile_source_t), intent(in) :: rails(2)  !! right and left, both as a right rail
         type(dimensions_t), intent(in) :: dimensions    !! mm
         type(contact_case_t), intent(in) :: case        !! material, friction, methods
         integer(c_intptr_t), intent(out) :: number      !! of the handle; 0 when there is an error
         type(status_t), intent(out) :: status
-            !! those of `make_wheelset`, `set_damping`, `reserve_wheelset` and of profiles
+            !! those of `make_wheelset`, `set_damping`, `set_rail_stiffness`, `reserve_wheelset`
+            !! and of profiles
         real(c_double), intent(in), optional :: damping, speed_floor !! as `set_damping` has them
+        real(c_double), intent(in), optional :: rail_stiffness(2)
+            !! as `set_rail_stiffness` has it
 
         type(wheelset_handle_t), pointer :: handle
         type(environment_t) :: environment
@@ -85,6 +90,8 @@ contains
             call fill_handle(wheels, rails, dimensions, case, handle, status)
         if (present(damping) .and. present(speed_floor) .and. .not. is_error(status)) &
             call set_damping(handle%model, damping, speed_floor, status)
+        if (present(rail_stiffness) .and. .not. is_error(status)) &
+            call set_rail_stiffness(handle%model, rail_stiffness, status)
         call restore_environment(environment)
         if (.not. is_error(status)) &
             call enter_register(c_loc(handle), kind_wheelset, number, status)

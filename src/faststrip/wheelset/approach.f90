@@ -7,10 +7,12 @@
 module faststrip_wheelset_approach
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: most_steps
+    use faststrip_numerics_lu, only: lu_factor, lu_solve
     implicit none
     private
 
     public :: approach_search_t, start_search, take_force, is_found, is_near, usual_approach
+    public :: spring_share, spring_step
     public :: largest_jump, near_enough, most_growth, equilibrium, most_tries
     public :: telling, hertz_power
     public :: roll_search_t, next_roll, most_roll_step
@@ -86,6 +88,49 @@ contains
 
         usual_approach = (load/usual_stiffness)**(1.0_wp/hertz_power)
     end function usual_approach
+
+    !> How much of an approach a spring takes below a usual contact, mm.
+    elemental real(wp) function spring_share(approach, stiffness) result(share)
+        real(wp), intent(in) :: approach  !! of both together, mm
+        real(wp), intent(in) :: stiffness !! of the spring, N/mm
+
+        real(wp) :: left, slope
+        integer :: i
+
+        ! From a contact that takes all of it Newton's method falls towards what it takes.
+        share = 0.0_wp
+        do i = 1, most_tries
+            left = usual_stiffness*max(approach - share, 0.0_wp)**hertz_power - stiffness*share
+            slope = hertz_power*usual_stiffness*sqrt(max(approach - share, 0.0_wp)) + stiffness
+            share = share + left/slope
+        end do
+    end function spring_share
+
+    !> How far rails on springs go until forces and springs are in balance, mm: along each direction
+    !> that has a spring.
+    pure function spring_step(slope, stiffness, left) result(step)
+        real(wp), intent(in) :: slope(:, :)  !! by which forces fall with the step, N/mm
+        real(wp), intent(in) :: stiffness(:) !! of the springs, N/mm; 0: rigid
+        real(wp), intent(in) :: left(:)      !! forces less those of the springs, N
+        real(wp) :: step(size(left))
+
+        real(wp) :: both(size(left), size(left))
+        integer :: i, pivot(size(left))
+        logical :: singular
+
+        both = slope
+        step = left
+        do i = 1, size(left)
+            both(i, i) = both(i, i) + stiffness(i)
+            if (stiffness(i) > 0.0_wp) cycle
+            both(i, :) = 0.0_wp
+            both(:, i) = 0.0_wp
+            both(i, i) = 1.0_wp
+            step(i) = 0.0_wp
+        end do
+        call lu_factor(size(left), both, pivot, singular)
+        if (.not. singular) call lu_solve(size(left), both, pivot, step)
+    end function spring_step
 
     !> Start a search.
     pure subroutine start_search(search, load, approach, tolerance, bracket, slope)

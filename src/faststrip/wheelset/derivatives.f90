@@ -8,7 +8,7 @@
 !> the largest of a column, else derivatives are within 1e-5. Over the rates pressures stay, and
 !> only the creep forces are found again. Derivatives of a wheel that a table answers for are those
 !> of the table between its nodes: it is asked for each neighbour. Where it hands over to strips
-!> both are, also over the rates.
+!> both are, also over the rates. Rails on springs follow the forces, at once.
 module faststrip_wheelset_derivatives
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
@@ -17,6 +17,7 @@ module faststrip_wheelset_derivatives
                                              difference_step, finest
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, reversed_state, is_at_rest
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
+    use faststrip_wheelset_approach, only: spring_step
     use faststrip_wheelset_height, only: set_outline, try_height, try_table, as_right
     use faststrip_wheelset_predict, only: yaw_lever
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
@@ -75,10 +76,27 @@ contains
             if (result%wheel(side)%n == 0) cycle
             call find_of_wheel(model, workspace, side, result%wheel(side), near(1), &
                                derivatives(:, :, side), status)
+            if (any(model%rail_stiffness > 0.0_wp)) &
+                call let_rail_follow(model%rail_stiffness, derivatives(:, :, side))
         end do
         call move_alloc(near, workspace%near)
         call restore_environment(environment)
     end subroutine find_wheelset_derivatives
+
+    ! A rail that goes with the force is for it a wheel that goes the other way.
+    pure subroutine let_rail_follow(stiffness, derivatives)
+        real(wp), intent(in) :: stiffness(2)
+        real(wp), intent(inout) :: derivatives(:, :)
+
+        real(wp) :: over_place(6, 2), change(2)
+        integer :: i
+
+        over_place = derivatives(:, :2)
+        do i = 1, n_columns
+            change = spring_step(over_place(2:3, :), stiffness, derivatives(2:3, i))
+            derivatives(:, i) = derivatives(:, i) - matmul(over_place, change)
+        end do
+    end subroutine let_rail_follow
 
     subroutine find_of_wheel(model, workspace, side, wheel, near, derivatives, status)
         type(wheelset_model_t), intent(in) :: model

@@ -42,13 +42,17 @@ contains
             !! falls with slip; another normal method than strips
 
         type(lookup_t), pointer :: before
+        real(wp) :: stiffness(2)
         integer :: i
 
         call clear_status(status)
         before => model%lookup
+        stiffness = model%rail_stiffness
         model%lookup => null()
         workspace%has_last = .false.
         if (.not. associated(lookup)) return
+        ! Nodes are those of rails that do not give way.
+        model%rail_stiffness = 0.0_wp
         call check_kind(model, lookup, order, status)
         do i = 1, 3
             if (.not. is_error(status)) &
@@ -56,6 +60,7 @@ contains
                                 result, status)
         end do
         workspace%has_last = .false.
+        model%rail_stiffness = stiffness
         model%lookup => before
         if (is_error(status)) return
         model%lookup => lookup

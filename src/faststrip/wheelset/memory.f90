@@ -204,6 +204,7 @@ contains
         if (.not. workspace%has_last) return
         call exchange(stream, workspace%is_reversed)
         call exchange(stream, workspace%stiffness)
+        call exchange(stream, workspace%deflection)
         call exchange_state(stream, workspace)
         do side = side_right, side_left
             call exchange_wheel(stream, workspace%wheel(side))

@@ -11,7 +11,8 @@ module faststrip_wheelset_solve
     use faststrip_base_material, only: combined_shear_modulus
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      join_limitations, number_text, st_bad_argument, &
-                                     st_workspace_too_small, st_target_missed, st_beyond_adhesion
+                                     st_workspace_too_small, st_target_missed, st_beyond_adhesion, &
+                                     st_no_convergence
     use faststrip_contact_case, only: contact_case_t, keeps_elements
     use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
@@ -25,7 +26,8 @@ module faststrip_wheelset_solve
                                                  wheelset_axes_t, wheelset_axes, reversed_state, &
                                                  rolling_state, resting_state
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
-                                           is_found, usual_approach, most_tries
+                                           is_found, usual_approach, most_tries, &
+                                           spring_share, spring_step, hertz_power
     use faststrip_wheelset_balance, only: solve_for_balance
     use faststrip_wheelset_guide, only: needs_guide, take_guide
     use faststrip_wheelset_height, only: set_outline, try_height, try_table
@@ -40,7 +42,8 @@ module faststrip_wheelset_solve
     implicit none
     private
 
-    public :: make_wheelset, set_damping, set_roller, reserve_wheelset, solve_wheelset
+    public :: make_wheelset, set_damping, set_rail_stiffness, set_roller
+    public :: reserve_wheelset, solve_wheelset
 
     ! Tuned [1]: of the load, how near a method comes whose height strips find. Origin: chosen: far
     ! below what methods differ by.
@@ -60,6 +63,14 @@ module faststrip_wheelset_solve
     ! Tuned [solutions]: of a wheelset, by secants and in all. Origin: safeguard: four to eight are
     ! taken.
     integer, parameter :: most_secants = 16, most_slips = 60
+    ! Given: y and z of both rails.
+    integer, parameter :: n_directions = 4
+    ! Tuned [1]: what may be missing of the balance of a rail and its spring, of the force. Origin:
+    ! chosen: as loads are found.
+    real(wp), parameter :: near_deflection = 1.0e-8_wp
+    ! Tuned [solutions]: of a wheelset, until they are in balance. Origin: safeguard: three to six
+    ! are taken.
+    integer, parameter :: most_deflections = 60
 
     !> What contacts carry about the axle.
     type :: axle_figures_t
@@ -125,6 +136,30 @@ contains
                             '0 mm/s, got ' // number_text(speed_floor))
         end if
     end subroutine check_damping
+
+    !> Springs below both rails, which give way along y and z.
+    pure subroutine set_rail_stiffness(model, stiffness, status)
+        type(wheelset_model_t), intent(inout) :: model !! changed unless there is an error
+        real(wp), intent(in) :: stiffness(2)           !! along y and z, N/mm; 0: rigid
+        type(status_t), intent(out) :: status          !! `st_bad_argument`: below 0, or no number
+
+        call check_rail_stiffness(stiffness, status)
+        if (.not. is_error(status)) model%rail_stiffness = stiffness
+    end subroutine set_rail_stiffness
+
+    pure subroutine check_rail_stiffness(stiffness, status)
+        real(wp), intent(in) :: stiffness(2)
+        type(status_t), intent(out) :: status
+
+        integer :: i
+
+        call clear_status(status)
+        do i = 1, 2
+            if (.not. (stiffness(i) >= 0.0_wp .and. ieee_is_finite(stiffness(i)))) &
+                call set_status(status, st_bad_argument, 'the stiffness below a rail must be ' // &
+                                'at least 0 N/mm, got ' // number_text(stiffness(i)))
+        end do
+    end subroutine check_rail_stiffness
 
     !> Put a wheelset on rollers, both on one axis along y, or back on rails. It has to be reserved
     !> anew.
@@ -231,12 +266,182 @@ contains
             !! `st_beyond_adhesion`, those of contacts; `st_target_missed`: the force jumps over
             !! the load
 
+        type(environment_t) :: environment
+
+        if (all(model%rail_stiffness == 0.0_wp)) then
+            call solve_on_rails(model, workspace, state, demand, result, status)
+            return
+        end if
+        call hold_environment(environment)
+        call check_rail_stiffness(model%rail_stiffness, status)
+        if (.not. is_error(status)) &
+            call solve_on_springs(model, workspace, state, demand, result, status)
+        call restore_environment(environment)
+    end subroutine solve_wheelset
+
+    subroutine solve_on_rails(model, workspace, state, demand, result, status)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheelset_workspace_t), intent(inout) :: workspace
+        type(wheelset_state_t), intent(in) :: state
+        type(wheelset_demand_t), intent(in) :: demand
+        type(wheelset_result_t), intent(inout) :: result
+        type(status_t), intent(out) :: status
+
         if (demand%axle_moment_is_given) then
             call solve_for_axle_moment(model, workspace, state, demand, result, status)
         else
             call solve_motion(model, workspace, state, demand, result, status)
         end if
-    end subroutine solve_wheelset
+    end subroutine solve_on_rails
+
+    ! Rails without mass on springs: each is displaced by u beside where the state has it, with
+    ! K u = F, F the force of its wheel. Steps of Newton's method for both, from the stiffness of
+    ! Hertz' law along the normal of each contact, corrected by what steps find (Broyden).
+    subroutine solve_on_springs(model, workspace, state, demand, result, status)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheelset_workspace_t), intent(inout) :: workspace
+        type(wheelset_state_t), intent(in) :: state
+        type(wheelset_demand_t), intent(in) :: demand
+        type(wheelset_result_t), intent(inout) :: result
+        type(status_t), intent(out) :: status
+
+        type(wheelset_state_t) :: moved
+        real(wp), dimension(n_directions) :: stiffness, u, force, left, before, step
+        real(wp) :: slope(n_directions, n_directions)
+        integer :: i, j, solutions(2)
+
+        result%wheel%n = 0
+        result%wheel%solutions = 0
+        call start_deflection(model, workspace, state, demand, u, status)
+        if (is_error(status)) return
+        stiffness = [model%rail_stiffness, model%rail_stiffness]
+        solutions = 0
+        do i = 1, most_deflections
+            moved = state
+            moved%rail%y = state%rail%y + u(1::2)
+            moved%rail%z = state%rail%z + u(2::2)
+            call solve_on_rails(model, workspace, moved, demand, result, status)
+            if (is_error(status)) return
+            solutions = solutions + result%wheel%solutions
+            result%wheel%solutions = solutions
+            force = 0.0_wp
+            if (demand%wants(side_right)) force(:2) = result%wheel(side_right)%force(2:3)
+            if (demand%wants(side_left)) force(3:) = result%wheel(side_left)%force(2:3)
+            left = merge(force - stiffness*u, 0.0_wp, stiffness > 0.0_wp)
+            workspace%deflection = reshape(u, [2, 2])
+            if (all(abs(left) <= near_deflection*norm2(force))) return
+            if (i == 1) then
+                slope = first_slope(demand, result)
+            else
+                ! How forces have fallen, beside what was expected.
+                before = before - left - matmul(slope, step) - stiffness*step
+                do j = 1, n_directions
+                    slope(:, j) = slope(:, j) + before*step(j)/sum(step**2)
+                end do
+            end if
+            step = spring_step(slope, stiffness, left)
+            u = u + step
+            before = left
+        end do
+        workspace%has_last = .false.
+        result%wheel%n = 0
+        call set_status(status, st_no_convergence, &
+                        'no balance of rails and their springs was found')
+    end subroutine solve_on_springs
+
+    ! How forces fall with the displacements of the rails. Where loads are given wheels follow the
+    ! rails down: each by itself, or both together.
+    pure function first_slope(demand, result) result(slope)
+        type(wheelset_demand_t), intent(in) :: demand
+        type(wheelset_result_t), intent(in) :: result
+        real(wp) :: slope(n_directions, n_directions)
+
+        real(wp), dimension(n_directions) :: normal, down
+        real(wp) :: stiffness
+        integer :: side, i, j
+
+        slope = 0.0_wp
+        do side = side_right, side_left
+            if (.not. demand%wants(side)) cycle
+            do i = 1, result%wheel(side)%n
+                associate (contact => result%wheel(side)%contact(i))
+                    normal = 0.0_wp
+                    normal(2*side - 1:2*side) = [-sin(contact%angle), cos(contact%angle)]
+                    stiffness = hertz_power*contact%figures%normal%load &
+                                /contact%figures%normal%penetration
+                    do j = 1, n_directions
+                        slope(:, j) = slope(:, j) + stiffness*normal*normal(j)
+                    end do
+                end associate
+            end do
+        end do
+        if (demand%kind == demand_position) return
+        do side = side_right, side_left
+            down = 0.0_wp
+            down(2*side) = 1.0_wp
+            if (demand%kind /= demand_loads .and. .not. demand%roll_is_free .and. &
+                demand%kind /= demand_rest) down(2::2) = 1.0_wp
+            normal = matmul(slope, down)
+            if (.not. dot_product(down, normal) > 0.0_wp) cycle
+            normal = normal/sqrt(dot_product(down, normal))
+            do j = 1, n_directions
+                slope(:, j) = slope(:, j) - normal*normal(j)
+            end do
+            if (all(down(2::2) > 0.0_wp)) return
+        end do
+    end function first_slope
+
+    ! Where rails lie at first: as at the last solution, or as a usual wheel presses them.
+    subroutine start_deflection(model, workspace, state, demand, u, status)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheelset_workspace_t), intent(inout) :: workspace
+        type(wheelset_state_t), intent(in) :: state
+        type(wheelset_demand_t), intent(in) :: demand
+        real(wp), intent(out) :: u(n_directions)
+        type(status_t), intent(out) :: status
+
+        real(wp) :: touch(2), low, high, z
+        integer :: side, i
+
+        u = reshape(workspace%deflection, [n_directions])
+        call check_demand(state, demand, status)
+        if (.not. is_error(status)) call check_workspace(model, workspace, status)
+        if (is_error(status)) return
+        if (workspace%has_last .and. demand%kind /= demand_position) return
+        if (.not. workspace%has_last) u = 0.0_wp
+        associate (stiffness => model%rail_stiffness(2))
+            if (.not. stiffness > 0.0_wp) return
+            if (demand%kind == demand_loads) then
+                u(2::2) = merge(demand%load, 0.0_wp, demand%wants)/stiffness
+                return
+            else if (demand%kind == demand_rest .or. demand%roll_is_free) then
+                u(2::2) = 0.5_wp*demand%axle_load/stiffness
+                return
+            end if
+            do side = side_right, side_left
+                touch(side) = huge(touch)
+                if (.not. demand%wants(side)) cycle
+                call set_outline(model, workspace, state, side, touch(side), status)
+                if (is_error(status)) return
+            end do
+            z = state%z
+            if (demand%kind == demand_axle_load) then
+                ! Where both carry it, each on its spring.
+                low = minval(touch)
+                high = maxval(touch) + demand%axle_load/stiffness + usual_approach(demand%axle_load)
+                do i = 1, most_deflections
+                    z = 0.5_wp*(low + high)
+                    if (stiffness*sum(spring_share(max(z - touch, 0.0_wp), stiffness)) &
+                        > demand%axle_load) then
+                        high = z
+                    else
+                        low = z
+                    end if
+                end do
+            end if
+            u(2::2) = spring_share(max(z - touch, 0.0_wp), stiffness)
+        end associate
+    end subroutine start_deflection
 
     ! The pitch rate at which contacts carry a moment about the axle. Ahead, it falls with the slip
     ! of the wheels, as forces do with creepage: secant steps in a bracket, over the moment as it

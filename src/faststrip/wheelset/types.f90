@@ -70,6 +70,8 @@ module faststrip_wheelset_types
             !! share by which forces of a contact grow with its approach rate, s/mm; 0: none
         real(wp) :: speed_floor = 0.0_wp
             !! of rolling speeds, below which forces grow with the velocities, mm/s; 0: none
+        real(wp) :: rail_stiffness(2) = 0.0_wp
+            !! of the springs below each rail, along y and z, N/mm; 0: it does not give way
         real(wp) :: profile_accuracy = standard_accuracy
             !! of the heights of profiles, for `est_err_load`, mm
         type(lookup_t), pointer :: lookup => null()
@@ -176,6 +178,8 @@ module faststrip_wheelset_types
         real(wp) :: stiffness(2, 2) = 0.0_wp
             !! of load and roll moment over z and roll at the last balance; 0: not known, N/mm, N,
             !! N, N mm
+        real(wp) :: deflection(2, 2) = 0.0_wp
+            !! of the rails at the last solution, y and z of right and left, mm
         type(wheel_result_t), allocatable :: near(:) !! (1) a neighbour, for derivatives
     end type wheelset_workspace_t
 end module faststrip_wheelset_types

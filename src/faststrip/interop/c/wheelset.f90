@@ -35,6 +35,7 @@ module faststrip_interop_c_wheelset
         type(dimensions_t) :: dimensions !! `radius_right` to `roller_radius`
         real(c_double) :: damping        !! s/mm
         real(c_double) :: speed_floor    !! mm/s
+        real(c_double) :: rail_stiffness(2) !! y, z, N/mm
     end type c_setup_t
 
     !> `faststrip_rail_state` of the header.
@@ -100,7 +101,8 @@ contains
         code = status%code
         if (is_error(status)) return
         call c_f_pointer(setup, fields)
-        fields = c_setup_t(c_sizeof(fields), default_dimensions(), 0.0_c_double, 0.0_c_double)
+        fields = c_setup_t(c_sizeof(fields), default_dimensions(), 0.0_c_double, 0.0_c_double, &
+                           0.0_c_double)
     end function faststrip_default_wheelset
 
     !> Make a wheelset on its track.
@@ -421,7 +423,7 @@ contains
         ! The angle is that of each contact.
         call fill_case(of_case, contact, ignored)
         call new_wheelset(sources(:, 1), sources(:, 2), fields%dimensions, contact, number, &
-                          status, fields%damping, fields%speed_floor)
+                          status, fields%damping, fields%speed_floor, fields%rail_stiffness)
     end subroutine make_handle
 
     !> A caller's setup, if it is one.

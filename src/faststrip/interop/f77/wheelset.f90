@@ -67,12 +67,14 @@ module faststrip_interop_f77_wheelset
                                                  pitch_rate_of
     use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
                                               default_dimensions, new_wheelset
-    use faststrip_wheelset_solve, only: set_damping, set_roller, reserve_wheelset
+    use faststrip_wheelset_solve, only: set_damping, set_rail_stiffness, set_roller, &
+                                        reserve_wheelset
     use faststrip_wheelset_types, only: wheelset_demand_t, side_right, side_left
     implicit none
     private
 
-    public :: fswdft, fswnew, fsrail, fsptch, fsaxle, fsprat, fsdamp, fsroll, fswslv, fswset, &
+    public :: fswdft, fswnew, fsrail, fsptch, fsaxle, fsprat, fsdamp, fsspri, fsroll, fswslv, &
+              fswset, &
               fswstr, fswelm, fswlkp
     public :: fswcpy, fswfre
     public :: n_setup, read_dimensions, read_sources, find_column
@@ -257,6 +259,25 @@ contains
         call set_damping(handle%model, damping, speed_floor, handle%status)
         info = handle%status%code
     end subroutine fsdamp
+
+    !> CALL FSSPRI(IWORK, STIFFY, STIFFZ, INFO)
+    !>
+    !> Set springs below each rail, along y and z: a rail without mass is displaced by the force
+    !> over the stiffness, beside where FSRAIL has it; 0: rigid. FSWNEW sets 0. After an error both
+    !> are as they were.
+    subroutine fsspri(iwork, stiffness_y, stiffness_z, info) bind(c, name='fsspri_')
+        integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
+        real(c_double), intent(in) :: stiffness_y    !! N/mm
+        real(c_double), intent(in) :: stiffness_z    !! N/mm
+        integer(c_int), intent(out) :: info          !! status
+
+        type(wheelset_handle_t), pointer :: handle
+
+        call find_wheelset(number_of(iwork), handle, info)
+        if (info /= st_ok) return
+        call set_rail_stiffness(handle%model, [stiffness_y, stiffness_z], handle%status)
+        info = handle%status%code
+    end subroutine fsspri
 
     !> CALL FSROLL(IWORK, RADIUS, INFO)
     !>
