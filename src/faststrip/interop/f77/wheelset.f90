@@ -74,8 +74,7 @@ module faststrip_interop_f77_wheelset
     private
 
     public :: fswdft, fswnew, fsrail, fsptch, fsaxle, fsprat, fsdamp, fsspri, fsroll, fswslv, &
-              fswset, &
-              fswstr, fswelm, fswlkp
+              fswset, fswstr, fswelm, fswlkp
     public :: fswcpy, fswfre
     public :: n_setup, read_dimensions, read_sources, find_column
 
