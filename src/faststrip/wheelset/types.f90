@@ -118,7 +118,7 @@ module faststrip_wheelset_types
         real(wp) :: force(3) = 0.0_wp               !! on the rail, in the track, with damping, N
         real(wp) :: force_wheelset(3) = 0.0_wp      !! the same in the wheelset's frame, N
         real(wp) :: moment(3) = 0.0_wp
-            !! of it about the wheelset's centre, with the moment about the normal, N mm
+            !! of it about the wheelset's centre, with those of pressures and about the normal, N mm
     end type wheel_contact_t
 
     !> The contacts of one wheel.

@@ -328,8 +328,6 @@ contains
         type(wheelset_axes_t) :: axes
         type(rail_state_t) :: rail
         real(wp) :: height, place(3)
-        integer :: tangential
-        logical :: warm
 
         axes = lowered_axes(workspace, lowered)
         height = model%gap_height
@@ -358,22 +356,57 @@ contains
         if (is_error(contact%status)) return
         call place_on_wheel(pair, axes, frame%origin, contact)
         call take_motion(model, contact, case)
-        if (workspace%gap%apart > 0.0_wp .and. case%methods%normal == normal_strip &
-            .and. .not. case%smoothing > 0.0_wp) then
-            warm = case%warm_start
-            tangential = case%methods%tangential
-            case%methods%tangential = tangential_none
-            call solve_apart(workspace%gap, workspace%contact(i), case, contact)
-            case%warm_start = warm
-            case%methods%tangential = tangential
-            if (.not. is_error(contact%status)) &
-                call slide_apart(workspace%gap, workspace%contact(i), case, contact)
+        if (workspace%gap%runs .and. case%methods%normal /= normal_auto) then
+            call solve_in_places(workspace%gap, workspace%contact(i), case, contact)
         else
             call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
         end if
         if (is_error(contact%status)) return
         call find_contact_force(model, axes, contact)
     end subroutine solve_one
+
+    ! A contact whose strips have places along x: first pressures, then the forces where they are.
+    subroutine solve_in_places(gap, workspace, case, contact)
+        type(frame_gap_t), intent(inout) :: gap
+        type(workspace_t), intent(inout) :: workspace
+        type(contact_case_t), intent(inout) :: case
+        type(wheel_contact_t), intent(inout) :: contact
+
+        type(status_t) :: forces
+        integer :: tangential, k
+        logical :: warm
+
+        warm = case%warm_start
+        tangential = case%methods%tangential
+        case%methods%tangential = tangential_none
+        if (gap%apart > 0.0_wp .and. case%methods%normal == normal_strip &
+            .and. .not. case%smoothing > 0.0_wp) then
+            call solve_apart(gap, workspace, case, contact)
+            ! Their pressures lean to where the others leave the gap lower.
+            associate (n => gap%n)
+                gap%ahead(:n) = gap%ahead(:n) - gap%apart*gap%skew(:n) &
+                                /(4.0_wp*gap%reach(:n)*(gap%inv2r(:n) + gap%bend(:n, 1)))
+            end associate
+        else
+            call solve_contact(workspace, case, contact%figures, contact%status)
+        end if
+        case%warm_start = warm
+        case%methods%tangential = tangential
+        if (is_error(contact%status)) return
+        associate (strips => workspace%strips, n => gap%n)
+            do k = 1, strips%n
+                strips%x0(k) = value_between(gap%y(:n), gap%ahead(:n), 0.5_wp &
+                                             *(strips%y_left(k) + strips%y_right(k)))
+            end do
+            strips%has_places = .true.
+        end associate
+        call solve_contact_forces(workspace, case, contact%figures, forces)
+        if (is_error(forces)) then
+            contact%status = forces
+        else
+            call join_limitations(contact%status, forces)
+        end if
+    end subroutine solve_in_places
 
     ! The pressures of strips that do not stand side by side: on a gap that follows of them, by
     ! steps of which each goes as far as the last two tell (Aitken).
@@ -435,7 +468,8 @@ contains
             associate (n => gap%n)
                 call find_displaced(workspace%strips, normal_compliance(case%material), &
                                     gap%overlap, gap%y(:n), gap%h(:n), gap%x0(:n), gap%reach(:n), &
-                                    gap%lower(:n, 2), gap%tilt(:n, 2), gap%bend(:n, 2))
+                                    gap%lower(:n, 2), gap%tilt(:n, 2), gap%bend(:n, 2), &
+                                    gap%skew(:n))
                 gap%lower(:n, 2) = gap%apart*gap%lower(:n, 2) - gap%lower(:n, 1)
                 gap%tilt(:n, 2) = gap%apart*gap%tilt(:n, 2) - gap%tilt(:n, 1)
                 gap%bend(:n, 2) = gap%apart*gap%bend(:n, 2) - gap%bend(:n, 1)
@@ -450,31 +484,6 @@ contains
             end associate
         end subroutine add_miss
     end subroutine solve_apart
-
-    ! The forces of strips at their places, where their friction slides and turns.
-    subroutine slide_apart(gap, workspace, case, contact)
-        type(frame_gap_t), intent(in) :: gap
-        type(workspace_t), intent(inout) :: workspace ! with their pressures
-        type(contact_case_t), intent(in) :: case
-        type(wheel_contact_t), intent(inout) :: contact
-
-        type(status_t) :: forces
-        integer :: k
-
-        associate (strips => workspace%strips, n => gap%n)
-            do k = 1, strips%n
-                strips%x0(k) = gap%apart*value_between(gap%y(:n), gap%x0(:n), 0.5_wp &
-                                                       *(strips%y_left(k) + strips%y_right(k)))
-            end do
-            strips%has_places = .true.
-        end associate
-        call solve_contact_forces(workspace, case, contact%figures, forces)
-        if (is_error(forces)) then
-            contact%status = forces
-        else
-            call join_limitations(contact%status, forces)
-        end if
-    end subroutine slide_apart
 
     ! The axes of a wheelset that is lowered beyond the state of a wheel's outline.
     pure type(wheelset_axes_t) function lowered_axes(workspace, lowered) result(axes)

@@ -58,17 +58,20 @@ contains
         type(frame_gap_t), intent(inout) :: gap    !! reserved
         type(status_t), intent(out) :: status      !! those of `sample_gap`
 
-        real(wp) :: share
+        real(wp) :: share, secant, lean
         integer :: i
 
         call sample_gap(pair, outline, region, lowered, frame, height, every_point, gap, status)
         if (is_error(status)) return
+        gap%ahead(:gap%n) = gap%x0(:gap%n)
+        gap%runs = any(abs(gap%ahead(:gap%n)) > 0.0_wp)
         share = (largest_bend(gap, outline%axes%axle(1)) - little_bend)/(much_bend - little_bend)
         share = max(0.0_wp, min(share, 1.0_wp))
         if (share > 0.0_wp) then
             do i = 1, gap%n
-                gap%inv2r(i) = gap%inv2r(i) + share*(secant_at(pair, outline, lowered, frame, gap, &
-                                                               i) - gap%inv2r(i))
+                call find_secant(pair, outline, lowered, frame, gap, i, secant, lean)
+                gap%inv2r(i) = gap%inv2r(i) + share*(secant - gap%inv2r(i))
+                gap%ahead(i) = gap%ahead(i) + share*lean
             end do
         end if
         call turn_sheared_gap(gap)
@@ -123,17 +126,20 @@ contains
     end function largest_bend
 
     ! 1/(2 R) of the parabola through the gap at point i and as far ahead and behind as a patch
-    ! goes there, 1/mm.
-    pure real(wp) function secant_at(pair, outline, lowered, frame, gap, i) result(secant)
+    ! goes there, and how far ahead of that point pressures have their centre: where a gap has
+    ! `k x**3` beside it they tilt as by 3/4 of that at their ends (reciprocity, a fixed patch).
+    pure subroutine find_secant(pair, outline, lowered, frame, gap, i, secant, lean)
         type(wheel_on_rail_t), intent(in) :: pair
         type(outline_t), intent(in) :: outline
         real(wp), intent(in) :: lowered
         type(contact_frame_t), intent(in) :: frame
         type(frame_gap_t), intent(in) :: gap
         integer, intent(in) :: i
+        real(wp), intent(out) :: secant ! 1/mm
+        real(wp), intent(out) :: lean   ! mm
 
         type(contact_frame_t) :: nearest
-        real(wp) :: reach, circle, ahead
+        real(wp) :: reach, circle, ahead, front, back
 
         nearest = frame
         ahead = gap%x0(i)
@@ -143,8 +149,10 @@ contains
         end if
         circle = gap%inv2r(i) - gap%of_rail(i)
         reach = half_length(gap, i)
-        secant = (rise_at(reach) + rise_at(-reach))/(2.0_wp*reach**2)
-        secant = max(secant, least_secant*circle) + gap%of_rail(i)
+        front = rise_at(reach)
+        back = rise_at(-reach)
+        secant = max((front + back)/(2.0_wp*reach**2), least_secant*circle) + gap%of_rail(i)
+        lean = 3.0_wp*0.25_wp*0.25_wp*(back - front)/(reach*secant)
 
     contains
 
@@ -172,5 +180,5 @@ contains
                 if (abs(miss) <= near_surface) exit
             end do
         end function rise_at
-    end function secant_at
+    end subroutine find_secant
 end module faststrip_geometry_contact_yawed
