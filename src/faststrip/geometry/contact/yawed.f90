@@ -39,6 +39,9 @@ module faststrip_geometry_contact_yawed
     ! Tuned [1]: smallest secant over the curvature of the circle. Origin: safeguard: beyond a kink
     ! of the profile a parabola tells nothing.
     real(wp), parameter :: least_secant = 0.2_wp
+    ! Tuned [points]: of which one is looked at between its ends. Origin: chosen: joints of a
+    ! profile are seen from a patch's length.
+    integer, parameter :: looked_at = 4
     ! Tuned [mm]: how near to the wheel's surface. Origin: a millionth of a penetration.
     real(wp), parameter :: near_surface = 1.0e-8_wp
 
@@ -58,20 +61,22 @@ contains
         type(frame_gap_t), intent(inout) :: gap    !! reserved
         type(status_t), intent(out) :: status      !! those of `sample_gap`
 
-        real(wp) :: share, secant, lean
+        real(wp) :: share, secant, lean, bulge
         integer :: i
 
         call sample_gap(pair, outline, region, lowered, frame, height, every_point, gap, status)
         if (is_error(status)) return
         gap%ahead(:gap%n) = gap%x0(:gap%n)
         gap%runs = any(abs(gap%ahead(:gap%n)) > 0.0_wp)
+        gap%bulge = 0.0_wp
         share = (largest_bend(gap, outline%axes%axle(1)) - little_bend)/(much_bend - little_bend)
         share = max(0.0_wp, min(share, 1.0_wp))
         if (share > 0.0_wp) then
             do i = 1, gap%n
-                call find_secant(pair, outline, lowered, frame, gap, i, secant, lean)
+                call find_secant(pair, outline, lowered, frame, gap, i, secant, lean, bulge)
                 gap%inv2r(i) = gap%inv2r(i) + share*(secant - gap%inv2r(i))
                 gap%ahead(i) = gap%ahead(i) + share*lean
+                gap%bulge = max(gap%bulge, share*bulge/gap%overlap)
             end do
         end if
         call turn_sheared_gap(gap)
@@ -128,7 +133,9 @@ contains
     ! 1/(2 R) of the parabola through the gap at point i and as far ahead and behind as a patch
     ! goes there, and how far ahead of that point pressures have their centre: where a gap has
     ! `k x**3` beside it they tilt as by 3/4 of that at their ends (reciprocity, a fixed patch).
-    pure subroutine find_secant(pair, outline, lowered, frame, gap, i, secant, lean)
+    ! At some points within the overlap also how far the gap is from that parabola half way, where
+    ! its square is half of that at the ends.
+    pure subroutine find_secant(pair, outline, lowered, frame, gap, i, secant, lean, bulge)
         type(wheel_on_rail_t), intent(in) :: pair
         type(outline_t), intent(in) :: outline
         real(wp), intent(in) :: lowered
@@ -137,6 +144,7 @@ contains
         integer, intent(in) :: i
         real(wp), intent(out) :: secant ! 1/mm
         real(wp), intent(out) :: lean   ! mm
+        real(wp), intent(out) :: bulge  ! mm
 
         type(contact_frame_t) :: nearest
         real(wp) :: reach, circle, ahead, front, back
@@ -152,6 +160,10 @@ contains
         front = rise_at(reach)
         back = rise_at(-reach)
         secant = max((front + back)/(2.0_wp*reach**2), least_secant*circle) + gap%of_rail(i)
+        bulge = 0.0_wp
+        if (gap%h(i) < gap%overlap .and. modulo(i, looked_at) == 0) &
+            bulge = 0.5_wp*abs(rise_at(sqrt(0.5_wp)*reach) + rise_at(-sqrt(0.5_wp)*reach) &
+                               - 0.5_wp*(front + back))
         lean = 3.0_wp*0.25_wp*0.25_wp*(back - front)/(reach*secant)
 
     contains
