@@ -152,8 +152,8 @@ module faststrip_wheelset_types
         real(wp) :: slope = 0.0_wp
             !! of the force over the load, to the power 2/3, there; 0: not known, 1/mm
         type(region_t) :: region(most_contacts)       !! of the last solution
-        real(wp) :: bulge(most_contacts) = 0.0_wp
-            !! how far their gaps are from parabolas along x, over the penetration
+        real(wp) :: left_out(most_contacts) = 0.0_wp
+            !! how far their gaps are from what strips take them for, over the penetration
         logical :: is_guided = .false.
             !! is a height being looked for by strips, for another method to take?
     end type wheel_workspace_t

@@ -50,10 +50,10 @@ module faststrip_wheelset_wheel
     ! and the strips' last step. Origin: chosen: forces follow them by as much, far below what
     ! profiles leave open.
     real(wp), parameter :: places_share = 50.0_wp
-    ! Tuned [1]: what errors of pmax and penetration are over the bulge of a gap. Origin: 100 yawed
-    ! contacts against their exact gaps: where a joint of the profile crosses strips pmax is up to 8
-    ! % too small, up to nine times the bulge.
-    real(wp), parameter :: bulge_of_pmax = 10.0_wp, bulge_of_penetration = 1.0_wp
+    ! Tuned [1]: errors of pmax and penetration over what is left out of a yawed gap. Origin: 100
+    ! contacts against their exact gaps: where a joint of the profile crosses strips pmax is up to
+    ! 8 % too small, nine times what the gap bulges by.
+    real(wp), parameter :: left_of_pmax = 10.0_wp, left_of_penetration = 1.5_wp
     ! Tuned [1]: largest part of what is missed that a step takes. Origin: safeguard: most take 0.7
     ! to 1.3.
     real(wp), parameter :: most_part = 3.0_wp
@@ -200,11 +200,11 @@ contains
                 call take_motion(model, contact, case)
                 call estimate_contact(workspace%contact(i), case, figures, contact%status)
                 if (is_error(contact%status) .or. .not. figures%is_estimated) cycle
-                associate (errors => figures%normal_errors, bulge => workspace%bulge(i))
-                    errors%est_err_pmax = errors%est_err_pmax + bulge_of_pmax*bulge
+                associate (errors => figures%normal_errors, left => workspace%left_out(i))
+                    errors%est_err_pmax = errors%est_err_pmax + left_of_pmax*left
                     errors%est_err_penetration = errors%est_err_penetration &
-                                                 + bulge_of_penetration*bulge
-                    if (bulge > 0.0_wp .and. &
+                                                 + left_of_penetration*left
+                    if (left > 0.0_wp .and. &
                         .not. btest(contact%status%limitations, st_under_resolved)) &
                         call name_resolution(errors%est_err_penetration, errors%est_err_pmax, &
                                              errors%est_err_area, case%resolution_limit, &
@@ -363,7 +363,7 @@ contains
             end if
         end associate
         if (is_error(contact%status)) return
-        workspace%bulge(i) = workspace%gap%bulge
+        workspace%left_out(i) = workspace%gap%left_out
         contact%place = frame%origin
         contact%angle = frame%angle
         contact%turn = frame%turn

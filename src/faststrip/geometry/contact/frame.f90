@@ -72,8 +72,8 @@ module faststrip_geometry_contact_frame
         real(wp), allocatable :: ahead(:)       !! where pressures have their centre along x there,
                                                 !! from the reference point, mm
         logical :: runs = .false.               !! is that anywhere but at 0?
-        real(wp) :: bulge = 0.0_wp              !! how far it is from a parabola along x at most,
-                                                !! over the overlap
+        real(wp) :: left_out = 0.0_wp           !! how far it is from what strips take it for, over
+                                                !! the overlap
         real(wp) :: apart = 0.0_wp              !! how far places of strips count: 0, not, to 1
         real(wp), allocatable :: reach(:)       !! half-length of a patch there, mm; if they count
         real(wp), allocatable :: lower(:, :)    !! (n, 4) for it: what is added to h; what that
