@@ -507,6 +507,34 @@ class Interfaces(HostTest):
                                    if row["case"] == "wide_2" else 4e-3)
             self.assertAlmostEqual(found.pmax / float(row["pmax_MPa"]), 1.0,
                                    delta=0.04 if row["case"] == "shared_2" else 0.01)
+            # Estimates know what strips leave out of it, at the same load.
+            ratio = found.load / float(row["N_N"])
+            pmax = found.pmax / float(row["pmax_MPa"]) / ratio**0.36
+            self.assertLess(abs(pmax - 1.0), found.est_err_pmax)
+            self.assertLess(abs(ratio**(-2.0 / 3.0) - 1.0), found.est_err_penetration)
+            # What is left of the moment about the centre of the exact pressures, over the load; in
+            # the wide ones the places run by 23 mm.
+            centre = np.array([float(row[f"centre_{axis}_mm"]) for axis in "xyz"])
+            middle = np.array([0.0, float(row["y_mm"]), float(row["z_mm"]) - 460.0])
+            left = np.array(found.moment) - np.cross(centre - middle, found.force)
+            self.assertLess(np.linalg.norm(left) / found.load,
+                            {"shared_1": 0.03, "wide_1": 0.09, "wide_2": 0.12, "wide_3": 0.11}.get(
+                                row["case"], 0.012))
+
+    def test_several_patches_by_one_approach_carry_the_load_smoothly(self):
+        # Where Hertz goes over from one place to another: by tens of kilonewtons.
+        package = self.import_package()
+        strips, kpec, hertz = (package.Wheelset(normal=normal, tangential="none", estimate=False)
+                               for normal in ("strip", "kpec_strips", "hertz"))
+        for y in 0.233, 5.182, 6.696:
+            z = float(strips.solve(y=y, load=8e4, roll=0.0, wheels="right").z[0])
+            state = {"z": z, "roll": 0.0, "wheels": "right"}
+            many, one = ([wheelset.solve(y=y + 1e-3 * i, **state).force[0][2]
+                          for i in range(-8, 9)] for wheelset in (kpec, hertz))
+            # Beside what the height itself changes: a step of 1 um after the one before.
+            self.assertLess(np.abs(np.diff(many, 2)).max(), 400.0)
+            self.assertLess(abs(many[8] / 8e4 - 1.0), 0.25)
+            self.assertGreater(np.abs(np.diff(one, 2)).max(), 2e4)
 
     def test_strips_slide_and_turn_at_their_places(self):
         # Throat and tread together, all of it sliding: sums over the pressures of the exact gap.

@@ -192,11 +192,9 @@ contains
         workspace%strips%has_places = .false.
         call add_lap(case%asked%times, lap, result%times%normal_us, result%times%normal_cpu_us)
         call lay_strips(workspace%solver%curve, case, workspace%strips)
-        if (case%curved) then
-            workspace%strip_forces%n = 0
-            result%tangential = tangential_result_t()
-            call turn_forces(workspace, result)
-        end if
+        workspace%strip_forces%n = 0
+        result%tangential = tangential_result_t()
+        call turn_forces(workspace, result)
         workspace%solved_by = case%methods%normal
         workspace%methods = case%methods
         if (case%estimate) call method%estimate(workspace, case, result, status)

@@ -30,7 +30,7 @@ contains
 
     !> What strips at their places change of a gap.
     pure subroutine find_displaced(strips, compliance, overlap, y, h, x0, reach, height, slope, &
-                                   bend)
+                                   bend, skew)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
         real(wp), intent(in) :: overlap              !! up to which height bodies overlap, mm
@@ -41,10 +41,12 @@ contains
         real(wp), intent(out) :: height(:)           !! to add to the gap, mm
         real(wp), intent(out) :: slope(:)            !! its derivative over y
         real(wp), intent(out) :: bend(:)             !! to add to 1/(2 R), 1/mm
+        real(wp), intent(out) :: skew(:)
+            !! by how much the gap is higher at the end ahead of a patch than behind, mm
 
         type(status_t) :: status
-        real(wp), dimension(n_places) :: place, ahead, tip, lower, curved, apart, side_by_side, &
-            shifted, front, back, there
+        real(wp), dimension(n_places) :: place, ahead, tip, lower, curved, leaning, apart, &
+            side_by_side, shifted, front, back, there
         real(wp) :: lower_slope(n_places), curved_slope(n_places), work(3*n_places), factor, at, &
             first, last, d1, d2
         integer :: i, s
@@ -66,6 +68,7 @@ contains
         end do
         lower = 0.0_wp
         curved = 0.0_wp
+        leaning = 0.0_wp
         do s = 1, strips%n
             factor = compliance*strips%p0(s)
             apart = ahead - value_between(y, x0, &
@@ -77,6 +80,7 @@ contains
             call find_column(apart - tip, back)
             lower = lower + factor*(shifted - side_by_side)
             curved = curved + factor*((0.5_wp*(front + back) - there) - (shifted - side_by_side))
+            leaning = leaning + factor*(front - back)
         end do
         curved = curved/tip**2
         call spline_setup(place, lower, spline_not_a_knot, lower_slope, work, status)
@@ -85,6 +89,7 @@ contains
             at = max(first, min(y(i), last))
             call spline_value(place, lower, lower_slope, at, height(i), slope(i), d2)
             call spline_value(place, curved, curved_slope, at, bend(i), d1, d2)
+            skew(i) = value_between(place, leaning, at)
             if (y(i) < first .or. y(i) > last) slope(i) = 0.0_wp
         end do
 

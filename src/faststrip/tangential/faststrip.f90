@@ -499,12 +499,14 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
-        real(wp) :: force(2), change(2), load, bound, limit
+        real(wp) :: force(2), change(2), load, bound, limit, place
         integer :: k
 
         load = 0.0_wp
+        place = 0.0_wp
         do k = first, last
             load = load + load_of(strips, k)
+            if (strips%has_places) place = place + load_of(strips, k)*strips%x0(k)
         end do
         bound = rolling%mu_in_slip*load
         if (bound <= nothing) return
@@ -518,7 +520,10 @@ contains
             change = change - force
             result%fx = result%fx + change(1)
             result%fy = result%fy + change(2)
-            result%mz = result%mz + missing(3)
+            ! At the mean of the strips' places.
+            place = place/load
+            result%mz = result%mz + missing(3) + place*change(2)
+            sums%pressed = sums%pressed - place*change(2)*rolling%plane%cphi
         end associate
         sums%stuck = min(max(sums%stuck + missing(4), before%stuck), &
                          before%stuck + sums%covered - before%covered)

@@ -556,7 +556,7 @@ contains
     !>
     !>     ceta/(cos a + cphi/pitch sin a)
     !>
-    !> At a place x0 ahead of the others spin adds `cphi x0` across.
+    !> In one plane spin adds `cphi x0` across at a place x0 ahead of the others.
     pure type(creepage_t) function strip_slip(strips, k, plane) result(own)
         type(contact_strips_t), intent(in) :: strips !! laid on a curved surface, or with places
         integer, intent(in) :: k                     !! one of them
@@ -564,7 +564,8 @@ contains
 
         real(wp) :: sine, cosine, lost
 
-        if (strips%has_places) own%ceta = plane%cphi*strips%x0(k)
+        if (strips%has_places .and. .not. (strips%is_curved .and. strips%follow_outline)) &
+            own%ceta = plane%cphi*strips%x0(k)
         if (.not. strips%is_curved) return
         sine = sin(strips%inclination(k))
         ! 1 - cos a

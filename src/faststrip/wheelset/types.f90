@@ -121,7 +121,7 @@ module faststrip_wheelset_types
         real(wp) :: force(3) = 0.0_wp               !! on the rail, in the track, with damping, N
         real(wp) :: force_wheelset(3) = 0.0_wp      !! the same in the wheelset's frame, N
         real(wp) :: moment(3) = 0.0_wp
-            !! of it about the wheelset's centre, with the moment about the normal, N mm
+            !! of it about the wheelset's centre, with those of pressures and about the normal, N mm
     end type wheel_contact_t
 
     !> The contacts of one wheel.
@@ -155,6 +155,8 @@ module faststrip_wheelset_types
         real(wp) :: slope = 0.0_wp
             !! of the force over the load, to the power 2/3, there; 0: not known, 1/mm
         type(region_t) :: region(most_contacts)       !! of the last solution
+        real(wp) :: left_out(most_contacts) = 0.0_wp
+            !! how far their gaps are from what strips take them for, over the penetration
         logical :: is_guided = .false.
             !! is a height being looked for by strips, for another method to take?
     end type wheel_workspace_t

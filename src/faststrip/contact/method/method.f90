@@ -77,7 +77,9 @@ module faststrip_contact_method
         real(wp) :: along_load = 0.0_wp  !! if so, the sum of pressures along their own normals, N
         type(tangential_result_t) :: along = tangential_result_t()
             !! if so, forces and moment along the surface
-        real(wp) :: moment(2) = 0.0_wp   !! if so, about x and y of the contact, N mm
+        real(wp) :: moment(2) = 0.0_wp
+            !! of its pressures, and on a curved surface of its tractions, too, about x and y of the
+            !! contact, N mm
         real(wp) :: mu = 0.0_wp          !! their coefficient of friction, static; the mean by load
         logical :: has_forces = .false.  !! are these known?
         logical :: knows_stick = .false. !! is the stick fraction known?

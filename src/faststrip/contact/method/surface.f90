@@ -164,8 +164,7 @@ contains
         call find_means(workspace%solver%curve, workspace%strips, lean, depth)
         added = lost_of_forces*turn**2
         if (.not. case%curved) added(2) = added(2) + abs(lean)*result%normal%load/bound
-        if (.not. (case%curved .and. (case%methods%tangential == tangential_faststrip .or. &
-                                      case%methods%tangential == tangential_faststrip_plain))) then
+        if (.not. (case%curved .and. has_own_slip(case%methods%tangential))) then
             ! A little more slip, along x by the depth and across by the spin: what it adds to a
             ! force that does not slide, or turns of one that does.
             associate (c => sqrt(result%normal%area/pi), creepage => result%creepage, &
@@ -184,6 +183,14 @@ contains
                                            case%force_limit, status)
         end associate
     end subroutine add_turn_errors
+
+    !> Has each strip its own slip (S15)?
+    pure logical function has_own_slip(tangential)
+        integer, intent(in) :: tangential !! number of the method
+
+        has_own_slip = tangential == tangential_faststrip .or. &
+                       tangential == tangential_faststrip_plain
+    end function has_own_slip
 
     !> Means by load of the sine of the strips' inclination and of their depth, mm.
     pure subroutine find_means(curve, strips, lean, depth)
@@ -228,36 +235,48 @@ contains
         result%is_curved = .false.
     end subroutine flatten_load
 
-    !> Make the load, the forces and the moment of a result those of the curved surface, in the
-    !> frame of the contact. Forces of methods that have none of strips go in proportion to their
-    !> loads. On a plane nothing changes, to the bit.
+    !> The moment of a result's pressures about its reference point; on a curved surface make load,
+    !> forces and moment those of the surface, in the frame of the contact. Forces of methods that
+    !> have none of strips go in proportion to their loads.
     pure subroutine turn_forces(workspace, result)
         type(workspace_t), intent(in) :: workspace      !! its strips are laid
         type(contact_result_t), intent(inout) :: result !! along the surface; is turned
 
         real(wp) :: load, share, fx, fy, side, down, lost, sine, turned_y, turned_z, arm, lever, &
-            lean, shortened
+            lean, shortened, turned_m, place, centre(2)
         integer :: k
 
         associate (strips => workspace%strips, forces => workspace%strip_forces, &
                    normal => result%normal, tangential => result%tangential)
             result%is_curved = .false.
+            result%moment = 0.0_wp
+            load = strips_load(strips)
+            if (.not. load > 0.0_wp) return
+            place = 0.0_wp
+            centre = 0.0_wp
+            do k = 1, strips%n
+                if (strips%has_places) place = strips%x0(k)
+                centre = centre + load_of(k)/load*[place, middle_of(k)]
+            end do
+            result%moment = normal%load*[centre(2), -centre(1)]
+            ! Forces that know nothing of places have the arm of the pressures.
+            if (strips%has_places .and. .not. has_own_slip(workspace%methods%tangential)) &
+                tangential%mz = tangential%mz + centre(1)*tangential%fy
             if (.not. strips%is_curved) return
             result%is_curved = .true.
+            result%moment = 0.0_wp
             result%along_load = normal%load
             result%along = tangential
-            result%moment = 0.0_wp
+            turned_m = 0.0_wp
             turned_y = 0.0_wp
             turned_z = 0.0_wp
             arm = 0.0_wp
             lever = 0.0_wp
             lean = 0.0_wp
             shortened = 0.0_wp
-            load = strips_load(strips)
-            if (.not. load > 0.0_wp) return
             do k = 1, strips%n
-                share = strip_load(strips%p0(k), strips%half_length(k), &
-                                   strips%y_right(k) - strips%y_left(k))/load
+                share = load_of(k)/load
+                if (strips%has_places) place = strips%x0(k)
                 fx = share*tangential%fx
                 fy = share*tangential%fy
                 if (forces%n == strips%n) then
@@ -270,21 +289,36 @@ contains
                 down = -share*normal%load*lost + fy*sine
                 turned_y = turned_y + side
                 turned_z = turned_z + down
-                associate (y => 0.5_wp*(strips%y_left(k) + strips%y_right(k)), &
-                           z => strips%depth(k))
+                turned_m = turned_m + place*side
+                associate (y => middle_of(k), z => strips%depth(k))
                     result%moment(1) = result%moment(1) + y*(share*normal%load + down) &
                                        - z*(fy + side)
-                    arm = arm + y*fx
-                    lever = lever + z*fx
+                    arm = arm + y*fx - place*fy
+                    lever = lever + z*fx - place*(share*normal%load + down)
                 end associate
                 lean = lean + share*sine
                 shortened = shortened + share*lost
             end do
             ! What tractions have about the strips' own places turns with their planes.
             result%moment(2) = lever - lean*(tangential%mz + arm)
-            tangential%mz = tangential%mz - shortened*(tangential%mz + arm)
+            tangential%mz = tangential%mz - shortened*(tangential%mz + arm) + turned_m
             tangential%fy = tangential%fy + turned_y
             normal%load = normal%load + turned_z
         end associate
+
+    contains
+
+        pure real(wp) function load_of(k)
+            integer, intent(in) :: k
+
+            load_of = strip_load(workspace%strips%p0(k), workspace%strips%half_length(k), &
+                                 workspace%strips%y_right(k) - workspace%strips%y_left(k))
+        end function load_of
+
+        pure real(wp) function middle_of(k)
+            integer, intent(in) :: k
+
+            middle_of = 0.5_wp*(workspace%strips%y_left(k) + workspace%strips%y_right(k))
+        end function middle_of
     end subroutine turn_forces
 end module faststrip_contact_method_surface

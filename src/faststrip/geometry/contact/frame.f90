@@ -69,12 +69,18 @@ module faststrip_geometry_contact_frame
         real(wp), allocatable :: inclination(:) !! mean slope of both less the contact angle, rad
         real(wp), allocatable :: x0(:)          !! where they are nearest along x, from the
                                                 !! reference point, mm; of a turned gap what is left
+        real(wp), allocatable :: ahead(:)       !! where pressures have their centre along x there,
+                                                !! from the reference point, mm
+        logical :: runs = .false.               !! is that anywhere but at 0?
+        real(wp) :: left_out = 0.0_wp           !! how far it is from what strips take it for, over
+                                                !! the overlap
         real(wp) :: apart = 0.0_wp              !! how far places of strips count: 0, not, to 1
         real(wp), allocatable :: reach(:)       !! half-length of a patch there, mm; if they count
         real(wp), allocatable :: lower(:, :)    !! (n, 4) for it: what is added to h; what that
                                                 !! misses; the sum; what it missed before, mm
         real(wp), allocatable :: tilt(:, :)     !! (n, 3) the same of the slope
         real(wp), allocatable :: bend(:, :)     !! (n, 3) the same of 1/(2 R), 1/mm
+        real(wp), allocatable :: skew(:)        !! by how much that is more ahead than behind, mm
     end type frame_gap_t
 
 contains
@@ -143,12 +149,13 @@ contains
             gap%of_rail = 0.0_wp
             if (size(gap%y) == n) return
             deallocate (gap%wheel, gap%across, gap%down, gap%y, gap%h, gap%inv2r, gap%of_rail, &
-                        gap%slope, gap%inclination, gap%x0, gap%reach, gap%lower, &
-                        gap%tilt, gap%bend)
+                        gap%slope, gap%inclination, gap%x0, gap%ahead, gap%reach, &
+                        gap%lower, gap%tilt, gap%bend, gap%skew)
         end if
         allocate (gap%wheel(n), gap%across(n), gap%down(n), gap%y(n), gap%h(n), gap%inv2r(n), &
-                  gap%of_rail(n), gap%slope(n), gap%inclination(n), gap%x0(n), gap%reach(n), &
-                  gap%lower(n, 4), gap%tilt(n, 3), gap%bend(n, 3), source=0.0_wp)
+                  gap%of_rail(n), gap%slope(n), gap%inclination(n), gap%x0(n), gap%ahead(n), &
+                  gap%reach(n), gap%lower(n, 4), gap%tilt(n, 3), gap%bend(n, 3), gap%skew(n), &
+                  source=0.0_wp)
     end subroutine reserve_frame_gap
 
     !> A vector of the contact frame in the track.

@@ -36,6 +36,10 @@ module faststrip_geometry_contact_yawed
     ! they lie side by side, and from which their places count wholly. Origin: measured: the load of
     ! a height changes by 0.035 of it.
     real(wp), parameter :: near_places = 0.02_wp, apart_places = 2.0_wp*near_places
+    ! Tuned [1]: what strips at their places leave out, as a bulge of the gap, over that spread:
+    ! their pressures lean. Origin: 40 yawed contacts at flange roots against their exact gaps: pmax
+    ! up to 1.2 %, the penetration 0.3 %.
+    real(wp), parameter :: lean_part = 0.06_wp
     ! Tuned [1]: smallest secant over the curvature of the circle. Origin: safeguard: beyond a kink
     ! of the profile a parabola tells nothing.
     real(wp), parameter :: least_secant = 0.2_wp
@@ -58,17 +62,22 @@ contains
         type(frame_gap_t), intent(inout) :: gap    !! reserved
         type(status_t), intent(out) :: status      !! those of `sample_gap`
 
-        real(wp) :: share
+        real(wp) :: share, secant, lean, bulge
         integer :: i
 
         call sample_gap(pair, outline, region, lowered, frame, height, every_point, gap, status)
         if (is_error(status)) return
+        gap%ahead(:gap%n) = gap%x0(:gap%n)
+        gap%runs = any(abs(gap%ahead(:gap%n)) > 0.0_wp)
+        gap%left_out = 0.0_wp
         share = (largest_bend(gap, outline%axes%axle(1)) - little_bend)/(much_bend - little_bend)
         share = max(0.0_wp, min(share, 1.0_wp))
         if (share > 0.0_wp) then
             do i = 1, gap%n
-                gap%inv2r(i) = gap%inv2r(i) + share*(secant_at(pair, outline, lowered, frame, gap, &
-                                                               i) - gap%inv2r(i))
+                call find_secant(pair, outline, lowered, frame, gap, i, secant, lean, bulge)
+                gap%inv2r(i) = gap%inv2r(i) + share*(secant - gap%inv2r(i))
+                gap%ahead(i) = gap%ahead(i) + share*lean
+                gap%left_out = max(gap%left_out, share*bulge/gap%overlap)
             end do
         end if
         call turn_sheared_gap(gap)
@@ -79,7 +88,7 @@ contains
     pure subroutine find_places(gap)
         type(frame_gap_t), intent(inout) :: gap
 
-        real(wp) :: first, last, longest
+        real(wp) :: first, last, longest, spread
         integer :: i
 
         first = huge(first)
@@ -92,9 +101,10 @@ contains
             last = max(last, gap%x0(i))
             longest = max(longest, gap%reach(i))
         end do
-        gap%apart = 0.0_wp
-        if (longest > 0.0_wp) gap%apart = ((last - first)/(2.0_wp*longest))**2
-        gap%apart = max(0.0_wp, min((gap%apart - near_places)/(apart_places - near_places), 1.0_wp))
+        spread = 0.0_wp
+        if (longest > 0.0_wp) spread = ((last - first)/(2.0_wp*longest))**2
+        gap%apart = max(0.0_wp, min((spread - near_places)/(apart_places - near_places), 1.0_wp))
+        gap%left_out = gap%left_out + lean_part*min(spread, apart_places)
     end subroutine find_places
 
     ! Half-length of a patch at point i of a gap, mm.
@@ -123,17 +133,23 @@ contains
     end function largest_bend
 
     ! 1/(2 R) of the parabola through the gap at point i and as far ahead and behind as a patch
-    ! goes there, 1/mm.
-    pure real(wp) function secant_at(pair, outline, lowered, frame, gap, i) result(secant)
+    ! goes there, and how far ahead of that point pressures have their centre: where a gap has
+    ! `k x**3` beside it they tilt as by 3/4 of that at their ends (reciprocity, a fixed patch).
+    ! Within the overlap also how far the gap is from that parabola where its height is half of that
+    ! at the ends.
+    pure subroutine find_secant(pair, outline, lowered, frame, gap, i, secant, lean, bulge)
         type(wheel_on_rail_t), intent(in) :: pair
         type(outline_t), intent(in) :: outline
         real(wp), intent(in) :: lowered
         type(contact_frame_t), intent(in) :: frame
         type(frame_gap_t), intent(in) :: gap
         integer, intent(in) :: i
+        real(wp), intent(out) :: secant ! 1/mm
+        real(wp), intent(out) :: lean   ! mm
+        real(wp), intent(out) :: bulge  ! mm
 
         type(contact_frame_t) :: nearest
-        real(wp) :: reach, circle, ahead
+        real(wp) :: reach, circle, ahead, front, back
 
         nearest = frame
         ahead = gap%x0(i)
@@ -143,8 +159,14 @@ contains
         end if
         circle = gap%inv2r(i) - gap%of_rail(i)
         reach = half_length(gap, i)
-        secant = (rise_at(reach) + rise_at(-reach))/(2.0_wp*reach**2)
-        secant = max(secant, least_secant*circle) + gap%of_rail(i)
+        front = rise_at(reach)
+        back = rise_at(-reach)
+        secant = max((front + back)/(2.0_wp*reach**2), least_secant*circle) + gap%of_rail(i)
+        bulge = 0.0_wp
+        if (gap%h(i) < gap%overlap) &
+            bulge = 0.5_wp*abs(rise_at(sqrt(0.5_wp)*reach) + rise_at(-sqrt(0.5_wp)*reach) &
+                               - 0.5_wp*(front + back))
+        lean = 3.0_wp*0.25_wp*0.25_wp*(back - front)/(reach*secant)
 
     contains
 
@@ -172,5 +194,5 @@ contains
                 if (abs(miss) <= near_surface) exit
             end do
         end function rise_at
-    end function secant_at
+    end subroutine find_secant
 end module faststrip_geometry_contact_yawed
