@@ -38,6 +38,9 @@
 !>   and converges. Particles enter with the static value; one that sticks again keeps what it has.
 !>   A coefficient that falls with temperature is that of the heat of the elements ahead in the row
 !>   and its own, under this slip (`hot_share`).
+!>
+!> On a curved surface an ellipse rolls with the mean by load of the motion of the strips under it,
+!> and each row has the rest besides, with L1 along x (`faststrip_tangential_strip_slip`).
 module faststrip_tangential_fastsim
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
@@ -58,9 +61,10 @@ module faststrip_tangential_fastsim
     use faststrip_tangential_motion, only: check_motion, check_ellipse
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                                      check_strips
-    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
-                                          add_element, stick_share, state_adhesion, &
-                                          state_slip
+    use faststrip_tangential_strip_slip, only: patch_motion, rest_of_slip, slip_between, add_between
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
+                                          empty_field, empty_strip_forces, add_element, &
+                                          stick_share, state_adhesion, state_slip
     implicit none
     private
 
@@ -93,7 +97,7 @@ contains
     !> theory itself uses: with three flexibilities it is not parallel to the traction, but it
     !> never feeds energy.
     pure subroutine fastsim_solve(hertz, material, mu, creepage, nx, ny, result, status, field, &
-                                  variant, friction)
+                                  variant, friction, strips, per_strip)
         type(hertz_t), intent(in) :: hertz           !! the ellipse, centred at y = hertz%y
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -110,6 +114,10 @@ contains
         type(friction_t), intent(in), optional :: friction
             !! how the bound falls with slip and temperature, and a table over y in place of mu,
             !! which is then its mean; other parts do not count here
+        type(contact_strips_t), intent(in), optional :: strips
+            !! of the ellipse, laid: on a curved surface rows slide as these do about them
+        type(strip_forces_t), intent(inout), optional :: per_strip
+            !! on a curved surface forces of the strips, shares of the rows'; needs their capacity
 
         type(areas_t) :: areas
         type(kalker_coefficients_t) :: c
@@ -123,10 +131,12 @@ contains
         call check_ellipse(hertz, status)
         if (is_error(status)) return
         call kalker_coefficients(hertz%a/hertz%b, combined_poisson_ratio(material), c, status)
+        if (present(strips) .and. .not. is_error(status)) &
+            call empty_curved(strips, status, per_strip)
         if (is_error(status)) return
         call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, &
                          combined_shear_modulus(material), mu, creepage, [nx, ny], &
-                         chosen(variant), result, areas, field, friction)
+                         chosen(variant), result, areas, field, friction, strips, per_strip)
         result%stick_fraction = stick_share(areas%stuck, areas%covered)
     end subroutine fastsim_solve
 
@@ -187,7 +197,7 @@ contains
     !> Forces by FASTSIM on the virtual ellipses of any contact patches: same area, proportions of
     !> the second moments, centroid and load (`patch_ellipse`), each under its own Hertz pressure.
     pure subroutine fastsim_strips_solve(strips, material, mu, creepage, nx, ny, result, status, &
-                                         field, variant, friction)
+                                         field, variant, friction, per_strip)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -202,6 +212,7 @@ contains
             !! filled when present; needs capacity for nx*ny elements a patch
         type(fastsim_variant_t), intent(in), optional :: variant !! Kalker's choice without
         type(friction_t), intent(in), optional :: friction !! as of `fastsim_solve`
+        type(strip_forces_t), intent(inout), optional :: per_strip !! as of `fastsim_solve`
 
         type(patch_ellipse_t) :: ellipse
         type(kalker_coefficients_t) :: c
@@ -216,6 +227,8 @@ contains
         if (is_error(status)) return
         call check_material(material, status)
         if (is_error(status)) return
+        call empty_curved(strips, status, per_strip)
+        if (is_error(status)) return
         last = 0
         do while (last < strips%n)
             first = last + 1
@@ -229,7 +242,8 @@ contains
                 return
             end if
             call add_ellipse(ellipse, c, combined_shear_modulus(material), mu, creepage, [nx, ny], &
-                             chosen(variant), result, areas, field, friction)
+                             chosen(variant), result, areas, field, friction, strips, per_strip, &
+                             first, last)
         end do
         result%stick_fraction = stick_share(areas%stuck, areas%covered)
     end subroutine fastsim_strips_solve
@@ -253,6 +267,16 @@ contains
         if (present(field)) call empty_field(field, nx*ny*ellipses, status)
     end subroutine check_input
 
+    !> Empty the forces of strips on a curved surface.
+    pure subroutine empty_curved(strips, status, per_strip)
+        type(contact_strips_t), intent(in) :: strips
+        type(status_t), intent(inout) :: status
+        type(strip_forces_t), intent(inout), optional :: per_strip
+
+        if (present(per_strip) .and. strips%is_curved) &
+            call empty_strip_forces(per_strip, strips%n, status)
+    end subroutine empty_curved
+
     !> Refuse friction that is none, and rows that are too long for temperatures.
     pure subroutine check_fall(nx, status, friction)
         integer, intent(in) :: nx             !! elements along
@@ -275,7 +299,7 @@ contains
 
     !> Add the forces of one ellipse.
     pure subroutine add_ellipse(ellipse, c, g, mu, creepage, grid, variant, result, areas, field, &
-                                friction)
+                                friction, strips, per_strip, first, last)
         type(patch_ellipse_t), intent(in) :: ellipse !! where it is and what it carries
         type(kalker_coefficients_t), intent(in) :: c !! of the ellipse
         real(wp), intent(in) :: g                    !! combined shear modulus, MPa
@@ -287,12 +311,19 @@ contains
         type(areas_t), intent(inout) :: areas      !! added to
         type(tangential_field_t), intent(inout), optional :: field !! emptied beforehand
         type(friction_t), intent(in), optional :: friction !! checked
+        type(contact_strips_t), intent(in), optional :: strips !! under it, laid
+        type(strip_forces_t), intent(inout), optional :: per_strip
+            !! on a curved surface shares of the rows' forces are added to
+        integer, intent(in), optional :: first, last !! of the strips, else all
 
+        type(creepage_t) :: motion, rest
         real(wp) :: a, b, y0, l1, l2, l3, peak_bound, pmax, width, y, row, h, x, t, bound
-        real(wp) :: size_squared, step, cksi, slope_x, slope_y, px, py, sx, sy, cell, place
+        real(wp) :: size_squared, step, cksi, ceta, cphi, slope_x, slope_y, px, py, sx, sy, cell
+        real(wp) :: place
         real(wp) :: ahead_x, ahead_y, left, fall, gain, heat(most_along), row_bound
-        integer :: nx, ny, i, j, state
-        logical :: is_falling, is_hot, varies
+        real(wp) :: before(2)
+        integer :: nx, ny, i, j, state, from, to
+        logical :: is_falling, is_hot, varies, is_curved
 
         nx = grid(1)
         ny = grid(2)
@@ -304,10 +335,20 @@ contains
         l3 = pi*a*sqrt(a/b)/(4.0_wp*c%c23*g)
         pmax = 1.5_wp*ellipse%load/(pi*a*b) ! Given: Hertz
         width = 2.0_wp*b/ny
+        motion = creepage
+        is_curved = .false.
+        if (present(strips)) is_curved = strips%is_curved
+        if (is_curved) then
+            from = 1
+            to = strips%n
+            if (present(first)) from = first
+            if (present(last)) to = last
+            motion = patch_motion(strips, from, to, creepage)
+        end if
         ! Motion at the middle of the ellipse.
-        cksi = creepage%cksi - y0*creepage%cphi
+        cksi = motion%cksi - y0*motion%cphi
         if (variant%single_flexibility) then
-            l1 = weighted_flexibility(l1, l2, l3, cksi, creepage%ceta, sqrt(a*b)*creepage%cphi)
+            l1 = weighted_flexibility(l1, l2, l3, cksi, motion%ceta, sqrt(a*b)*motion%cphi)
             l2 = l1
             l3 = l1
         end if
@@ -326,7 +367,17 @@ contains
             row = a*sqrt(1.0_wp - t*t)
             h = 2.0_wp*row/nx
             cell = h*width
-            slope_x = cksi/l1 - y*creepage%cphi/l3
+            slope_x = cksi/l1 - y*motion%cphi/l3
+            ceta = motion%ceta
+            cphi = motion%cphi
+            if (is_curved) then
+                rest = rest_of_slip(slip_between(strips, from, to, y0 + y, creepage), y0 + y, &
+                                    creepage, motion)
+                slope_x = slope_x + rest%cksi/l1
+                ceta = ceta + rest%ceta
+                cphi = cphi + rest%cphi
+                before = [result%fx, result%fy]
+            end if
             px = 0.0_wp
             py = 0.0_wp
             left = 1.0_wp
@@ -338,7 +389,7 @@ contains
                 x = row*real(nx - 2*j + 1, wp)/nx
                 ! Half a step from the edge to the middle of the first element.
                 step = merge(0.5_wp*h, h, j == 1)
-                slope_y = creepage%ceta/l2 + (x + 0.5_wp*step)*creepage%cphi/l3
+                slope_y = ceta/l2 + (x + 0.5_wp*step)*cphi/l3
                 px = px - step*slope_x
                 py = py - step*slope_y
                 place = max((1.0_wp - t*t) - (x/a)**2, 0.0_wp)
@@ -382,6 +433,9 @@ contains
                 if (present(field)) call add_element(field, x, y0 + y, [h, cell], &
                                                      pmax*sqrt(place), px, py, sx, sy, state)
             end do
+            if (is_curved .and. present(per_strip)) &
+                call add_between(strips, from, to, y0 + y, [result%fx, result%fy] - before, &
+                                 per_strip%fx, per_strip%fy)
         end do
     end subroutine add_ellipse
 

@@ -9,7 +9,7 @@ module faststrip_contact_method_fastsim
     use faststrip_tangential_force_errors, only: errors_of_fastsim
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
-    use faststrip_contact_method_asked, only: asked_field
+    use faststrip_contact_method_asked, only: asked_field, asked_strip_forces
     use faststrip_contact_method_march_errors, only: left_out_t, estimate_march
     use faststrip_contact_methods, only: tangential_table, tangential_fastsim, &
                                          tangential_fastsim_elliptic, tangential_fastsim_weighted
@@ -64,12 +64,14 @@ contains
             if (workspace%is_ellipse) then
                 call fastsim_solve(workspace%hertz, material, workspace%mu, case%creepage, nx, ny, &
                                    result%tangential, status, asked_field(workspace, case), &
-                                   variant, workspace%friction)
+                                   variant, workspace%friction, workspace%strips, &
+                                   asked_strip_forces(workspace, case))
             else
                 call fastsim_strips_solve(workspace%strips, material, workspace%mu, &
                                           case%creepage, nx, ny, result%tangential, status, &
                                           asked_field(workspace, case), variant, &
-                                          workspace%friction)
+                                          workspace%friction, &
+                                          asked_strip_forces(workspace, case))
             end if
         end associate
     end subroutine solve_by_fastsim

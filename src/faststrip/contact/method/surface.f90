@@ -20,11 +20,11 @@ module faststrip_contact_method_surface
                                             name_resolution, name_force_resolution
     use faststrip_normal_strips, only: contact_strips_t, strip_load, strips_load
     use faststrip_contact_method, only: workspace_t, contact_result_t
-    use faststrip_contact_methods, only: tangential_faststrip, tangential_faststrip_plain
+    use faststrip_tangential_types, only: strip_forces_t
     implicit none
     private
 
-    public :: check_surface, lay_strips, flatten_load, turn_forces
+    public :: check_surface, lay_strips, flatten_load, turn_forces, find_lean, lateral_share
     public :: add_pressure_errors, shift_pressure_errors, add_turn_errors
 
     ! What a half-space leaves out of a contact that turns by 2 theta, over theta^2; `conformal`
@@ -147,8 +147,8 @@ contains
         end associate
     end subroutine shift_pressure_errors
 
-    !> The same of the forces: in the plane also what turning its pressures would change, and where
-    !> strips do not have their own slip, what that would.
+    !> The same of the forces: in the plane also what turning its pressures and the strips' own slip
+    !> would change.
     pure subroutine add_turn_errors(workspace, case, result, status)
         type(workspace_t), intent(in) :: workspace      !! with the solution
         type(contact_case_t), intent(in) :: case        !! that was solved
@@ -163,9 +163,8 @@ contains
         if (.not. (turn > 0.0_wp .and. bound > 0.0_wp)) return
         call find_means(workspace%solver%curve, workspace%strips, lean, depth)
         added = lost_of_forces*turn**2
-        if (.not. case%curved) added(2) = added(2) + abs(lean)*result%normal%load/bound
-        if (.not. (case%curved .and. (case%methods%tangential == tangential_faststrip .or. &
-                                      case%methods%tangential == tangential_faststrip_plain))) then
+        if (.not. case%curved) then
+            added(2) = added(2) + abs(lean)*result%normal%load/bound
             ! A little more slip, along x by the depth and across by the spin: what it adds to a
             ! force that does not slide, or turns of one that does.
             associate (c => sqrt(result%normal%area/pi), creepage => result%creepage, &
@@ -227,6 +226,47 @@ contains
         if (result%is_curved) result%normal%load = result%along_load
         result%is_curved = .false.
     end subroutine flatten_load
+
+    !> Of pressures in the frame of the contact the lateral force, and the mean cosine of their
+    !> inclination by load. Of a plane none and one.
+    pure subroutine find_lean(strips, load, lateral, cosine)
+        type(contact_strips_t), intent(in) :: strips !! laid
+        real(wp), intent(in) :: load                 !! along their own normals, N
+        real(wp), intent(out) :: lateral             !! N
+        real(wp), intent(out) :: cosine              !! 1 at most
+
+        real(wp) :: share, all
+        integer :: k
+
+        lateral = 0.0_wp
+        cosine = 1.0_wp
+        all = strips_load(strips)
+        if (.not. strips%is_curved .or. .not. all > 0.0_wp) return
+        do k = 1, strips%n
+            share = strip_load(strips%p0(k), strips%half_length(k), &
+                               strips%y_right(k) - strips%y_left(k))/all
+            lateral = lateral - share*load*sin(strips%inclination(k))
+            cosine = cosine - share*2.0_wp*sin(0.5_wp*strips%inclination(k))**2
+        end do
+    end subroutine find_lean
+
+    !> Of tractions the lateral force in the frame of the contact over the cosine of `find_lean`,
+    !> that of a force shared by load along the surface, N.
+    pure real(wp) function lateral_share(strips, forces, fy, cosine) result(lateral)
+        type(contact_strips_t), intent(in) :: strips !! laid
+        type(strip_forces_t), intent(in) :: forces   !! of the strips, or none
+        real(wp), intent(in) :: fy                   !! along the surface, N
+        real(wp), intent(in) :: cosine               !! of `find_lean`
+
+        integer :: k
+
+        lateral = fy
+        if (.not. strips%is_curved .or. forces%n /= strips%n) return
+        do k = 1, strips%n
+            lateral = lateral - forces%fy(k)*2.0_wp*sin(0.5_wp*strips%inclination(k))**2
+        end do
+        lateral = lateral/cosine
+    end function lateral_share
 
     !> Make the load, the forces and the moment of a result those of the curved surface, in the
     !> frame of the contact. Forces of methods that have none of strips go in proportion to their
