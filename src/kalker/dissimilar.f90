@@ -42,7 +42,6 @@ module faststrip_kalker_dissimilar
         type(creepage_t) :: creepage     !! as of `tang_solve`
         type(friction_t) :: friction     !! as of `tang_solve`
         type(tang_options_t) :: options  !! as of `tang_solve`
-        type(creepage_t), allocatable :: own(:) !! as of `tang_solve`, if rows have their own
     end type dissimilar_problem_t
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread.
@@ -96,7 +95,7 @@ contains
         do
             call tang_solve(workspace%tang, workspace%norm%grid, problem%material, problem%mu, &
                             problem%creepage, tang_options, tangential, status, field, &
-                            problem%friction, history, problem%own)
+                            problem%friction, history)
             if (is_error(status) .or. change <= converged) return
             if (workspace%turns >= most_steps) then
                 call set_status(status, st_no_convergence, 'pressures and tractions of ' // &

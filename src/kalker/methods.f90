@@ -139,6 +139,7 @@ contains
         kalker%tang%about = tangential_table(findloc(tangential_table%number, tangential_tang, &
                                                      dim=1))
         kalker%tang%cuts_creepages = .false.
+        kalker%tang%gives_strip_forces = .false.
         kalker%tang%memory => kalker%memory
         call enter_normal_method(workspace, kalker%norm, status)
         if (.not. is_error(status)) call enter_tangential_method(workspace, kalker%tang, status)
@@ -392,7 +393,7 @@ contains
         problem%options%edges = edges_of_norm
         call check_flexibility(workspace, case, status)
         if (is_error(status)) return
-        call find_own(memory%norm%grid, workspace, case, problem%own)
+        call find_own(memory%norm%grid, workspace, case, problem%options%own)
         associate (grid => memory%norm%grid)
             call memory%watch_tang(count(grid%pressure > 0.0_wp), .true.)
             if (keeps_elements(case)) &
@@ -532,15 +533,13 @@ contains
         type(tangential_field_t), intent(inout), optional :: field ! with room for the elements
 
         type(tang_options_t) :: options
-        type(creepage_t), allocatable :: own(:)
 
         call check_flexibility(workspace, case, status)
         if (is_error(status)) return
         options%edges = edges
-        call find_own(grid, workspace, case, own)
+        call find_own(grid, workspace, case, options%own)
         call tang_solve(tang, grid, softened(case%material, workspace%friction), workspace%mu, &
-                        case%creepage, options, tangential, status, field, workspace%friction, &
-                        own=own)
+                        case%creepage, options, tangential, status, field, workspace%friction)
     end subroutine solve_on_grid
 
     !> The elements of a grid without tractions, for stresses below them.

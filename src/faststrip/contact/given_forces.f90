@@ -216,9 +216,10 @@ contains
             now%r = unsaturated(map, got)
             largest = max(largest, size_of(map, got))
             is_found = size_of(map, got - forces) <= miss
-            if (is_found) exit
             is_flat = .false.
+            ! The last place, too: a warm start goes on with its slopes.
             if (i > 1) call learn(best, now, is_flat)
+            if (is_found) exit
             left = norm2(wanted - now%r)
             if (left < least .or. is_on_the_way(best, now, wanted, falls(tried%friction))) then
                 least = left

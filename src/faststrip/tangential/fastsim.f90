@@ -69,6 +69,7 @@ module faststrip_tangential_fastsim
     private
 
     public :: fastsim_solve, fastsim_strips_solve, fastsim_coefficients_solve, fastsim_variant_t
+    public :: fastsim_curved_solve, fastsim_rolling_t
 
     ! The most elements along x and strips across.
     ! Tuned [elements]. Origin: capacity.
@@ -79,6 +80,25 @@ module faststrip_tangential_fastsim
         logical :: elliptic_bound = .false.     !! or the parabolic one
         logical :: single_flexibility = .false. !! or three
     end type fastsim_variant_t
+
+    !> How a contact rolls.
+    type :: fastsim_rolling_t
+        type(material_t) :: material       !! moduli in MPa
+        real(wp) :: mu = 0.0_wp            !! coefficient of friction, >= 0
+        type(creepage_t) :: creepage       !! about y = 0, rail relative to wheel
+        integer :: nx = 0                  !! elements along x in each row, >= 1
+        integer :: ny = 0                  !! rows across each ellipse, >= 1
+        type(fastsim_variant_t) :: variant !! or Kalker's choice
+    end type fastsim_rolling_t
+
+    !> One ellipse.
+    type, extends(patch_ellipse_t) :: ellipse_t
+        type(kalker_coefficients_t) :: c   ! of the ellipse
+        real(wp) :: g = 0.0_wp             ! combined shear modulus, MPa
+        real(wp) :: mu = 0.0_wp            ! coefficient of friction
+        integer :: nx = 0, ny = 0          ! elements along, rows across
+        integer :: first = 0, last = 0     ! of the strips under it, where they count
+    end type ellipse_t
 
     !> Areas of the elements gone through so far.
     type :: areas_t
@@ -97,7 +117,7 @@ contains
     !> theory itself uses: with three flexibilities it is not parallel to the traction, but it
     !> never feeds energy.
     pure subroutine fastsim_solve(hertz, material, mu, creepage, nx, ny, result, status, field, &
-                                  variant, friction, strips, per_strip)
+                                  variant, friction)
         type(hertz_t), intent(in) :: hertz           !! the ellipse, centred at y = hertz%y
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -114,10 +134,6 @@ contains
         type(friction_t), intent(in), optional :: friction
             !! how the bound falls with slip and temperature, and a table over y in place of mu,
             !! which is then its mean; other parts do not count here
-        type(contact_strips_t), intent(in), optional :: strips
-            !! of the ellipse, laid: on a curved surface rows slide as these do about them
-        type(strip_forces_t), intent(inout), optional :: per_strip
-            !! on a curved surface forces of the strips, shares of the rows'; needs their capacity
 
         type(areas_t) :: areas
         type(kalker_coefficients_t) :: c
@@ -131,12 +147,10 @@ contains
         call check_ellipse(hertz, status)
         if (is_error(status)) return
         call kalker_coefficients(hertz%a/hertz%b, combined_poisson_ratio(material), c, status)
-        if (present(strips) .and. .not. is_error(status)) &
-            call empty_curved(strips, status, per_strip)
         if (is_error(status)) return
-        call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, &
-                         combined_shear_modulus(material), mu, creepage, [nx, ny], &
-                         chosen(variant), result, areas, field, friction, strips, per_strip)
+        call add_ellipse(ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load, c, &
+                                   combined_shear_modulus(material), mu, nx, ny), creepage, &
+                         chosen(variant), result, areas, field, friction)
         result%stick_fraction = stick_share(areas%stuck, areas%covered)
     end subroutine fastsim_solve
 
@@ -188,8 +202,8 @@ contains
             call set_status(status, st_out_of_range, 'ellipse, load, shear modulus or creepage' // &
                             ' coefficients beyond all proportion')
         else
-            call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, g, mu, &
-                             creepage, [nx, ny], chosen(), result, areas, field)
+            call add_ellipse(ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load, c, g, mu, nx, ny), &
+                             creepage, chosen(), result, areas, field)
             result%stick_fraction = stick_share(areas%stuck, areas%covered)
         end if
     end subroutine fastsim_coefficients_solve
@@ -197,7 +211,7 @@ contains
     !> Forces by FASTSIM on the virtual ellipses of any contact patches: same area, proportions of
     !> the second moments, centroid and load (`patch_ellipse`), each under its own Hertz pressure.
     pure subroutine fastsim_strips_solve(strips, material, mu, creepage, nx, ny, result, status, &
-                                         field, variant, friction, per_strip)
+                                         field, variant, friction)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         type(material_t), intent(in) :: material     !! moduli in MPa
         real(wp), intent(in) :: mu                   !! coefficient of friction, >= 0
@@ -212,41 +226,70 @@ contains
             !! filled when present; needs capacity for nx*ny elements a patch
         type(fastsim_variant_t), intent(in), optional :: variant !! Kalker's choice without
         type(friction_t), intent(in), optional :: friction !! as of `fastsim_solve`
-        type(strip_forces_t), intent(inout), optional :: per_strip !! as of `fastsim_solve`
 
-        type(patch_ellipse_t) :: ellipse
-        type(kalker_coefficients_t) :: c
+        call fastsim_curved_solve(strips, fastsim_rolling_t(material, mu, creepage, nx, ny, &
+                                                            chosen(variant)), &
+                                  result, status, field, friction)
+    end subroutine fastsim_strips_solve
+
+    !> The same, or on a Hertz ellipse, with what rows of a curved surface give to its strips.
+    pure subroutine fastsim_curved_solve(strips, rolling, result, status, field, friction, &
+                                         per_strip, hertz)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution, laid
+        type(fastsim_rolling_t), intent(in) :: rolling !! how it rolls
+        type(tangential_result_t), intent(out) :: result !! as of `fastsim_strips_solve`
+        type(status_t), intent(out) :: status        !! as of `fastsim_strips_solve`
+        type(tangential_field_t), intent(inout), optional :: field !! as of `fastsim_strips_solve`
+        type(friction_t), intent(in), optional :: friction !! as of `fastsim_solve`
+        type(strip_forces_t), intent(inout), optional :: per_strip
+            !! on a curved surface shares of the rows' forces; needs capacity for the strips
+        type(hertz_t), intent(in), optional :: hertz !! the ellipse of all strips, in place of its
+                                                     !! patches'
+
+        type(ellipse_t) :: ellipse
         type(areas_t) :: areas
         integer :: first, last
 
         call check_strips(strips, status)
         if (is_error(status)) return
-        call check_input(mu, creepage, nx, ny, strips%n_patches, status, field)
+        call check_input(rolling%mu, rolling%creepage, rolling%nx, rolling%ny, strips%n_patches, &
+                         status, field)
         if (is_error(status)) return
-        call check_fall(nx, status, friction)
+        call check_fall(rolling%nx, status, friction)
         if (is_error(status)) return
-        call check_material(material, status)
+        call check_material(rolling%material, status)
         if (is_error(status)) return
-        call empty_curved(strips, status, per_strip)
+        if (present(per_strip) .and. strips%is_curved) &
+            call empty_strip_forces(per_strip, strips%n, status)
         if (is_error(status)) return
+        ellipse%g = combined_shear_modulus(rolling%material)
+        ellipse%mu = rolling%mu
+        ellipse%nx = rolling%nx
+        ellipse%ny = rolling%ny
         last = 0
         do while (last < strips%n)
             first = last + 1
             last = patch_end(strips, first)
-            ellipse = patch_ellipse(strips, first, last)
+            if (present(hertz)) then
+                last = strips%n
+                ellipse%patch_ellipse_t = patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load)
+            else
+                ellipse%patch_ellipse_t = patch_ellipse(strips, first, last)
+            end if
             if (ellipse%load <= 0.0_wp) cycle
-            call kalker_coefficients(ellipse%a/ellipse%b, combined_poisson_ratio(material), c, &
-                                     status)
+            call kalker_coefficients(ellipse%a/ellipse%b, &
+                                     combined_poisson_ratio(rolling%material), ellipse%c, status)
             if (is_error(status)) then
                 result = tangential_result_t()
                 return
             end if
-            call add_ellipse(ellipse, c, combined_shear_modulus(material), mu, creepage, [nx, ny], &
-                             chosen(variant), result, areas, field, friction, strips, per_strip, &
-                             first, last)
+            ellipse%first = first
+            ellipse%last = last
+            call add_ellipse(ellipse, rolling%creepage, rolling%variant, result, areas, field, &
+                             friction, strips, per_strip)
         end do
         result%stick_fraction = stick_share(areas%stuck, areas%covered)
-    end subroutine fastsim_strips_solve
+    end subroutine fastsim_curved_solve
 
     !> Refuse what no FASTSIM can work on, and empty the field.
     pure subroutine check_input(mu, creepage, nx, ny, ellipses, status, field)
@@ -266,16 +309,6 @@ contains
         end if
         if (present(field)) call empty_field(field, nx*ny*ellipses, status)
     end subroutine check_input
-
-    !> Empty the forces of strips on a curved surface.
-    pure subroutine empty_curved(strips, status, per_strip)
-        type(contact_strips_t), intent(in) :: strips
-        type(status_t), intent(inout) :: status
-        type(strip_forces_t), intent(inout), optional :: per_strip
-
-        if (present(per_strip) .and. strips%is_curved) &
-            call empty_strip_forces(per_strip, strips%n, status)
-    end subroutine empty_curved
 
     !> Refuse friction that is none, and rows that are too long for temperatures.
     pure subroutine check_fall(nx, status, friction)
@@ -298,14 +331,10 @@ contains
     end function chosen
 
     !> Add the forces of one ellipse.
-    pure subroutine add_ellipse(ellipse, c, g, mu, creepage, grid, variant, result, areas, field, &
-                                friction, strips, per_strip, first, last)
-        type(patch_ellipse_t), intent(in) :: ellipse !! where it is and what it carries
-        type(kalker_coefficients_t), intent(in) :: c !! of the ellipse
-        real(wp), intent(in) :: g                    !! combined shear modulus, MPa
-        real(wp), intent(in) :: mu                   !! coefficient of friction
+    pure subroutine add_ellipse(ellipse, creepage, variant, result, areas, field, friction, &
+                                strips, per_strip)
+        type(ellipse_t), intent(in) :: ellipse       !! where it is and what it carries
         type(creepage_t), intent(in) :: creepage     !! about y = 0
-        integer, intent(in) :: grid(2)               !! elements along, strips across
         type(fastsim_variant_t), intent(in) :: variant !! bound and flexibilities
         type(tangential_result_t), intent(inout) :: result !! forces, moment, power are added to
         type(areas_t), intent(inout) :: areas      !! added to
@@ -314,37 +343,34 @@ contains
         type(contact_strips_t), intent(in), optional :: strips !! under it, laid
         type(strip_forces_t), intent(inout), optional :: per_strip
             !! on a curved surface shares of the rows' forces are added to
-        integer, intent(in), optional :: first, last !! of the strips, else all
 
         type(creepage_t) :: motion, rest
         real(wp) :: a, b, y0, l1, l2, l3, peak_bound, pmax, width, y, row, h, x, t, bound
         real(wp) :: size_squared, step, cksi, ceta, cphi, slope_x, slope_y, px, py, sx, sy, cell
-        real(wp) :: place
+        real(wp) :: place, g, mu
         real(wp) :: ahead_x, ahead_y, left, fall, gain, heat(most_along), row_bound
         real(wp) :: before(2)
-        integer :: nx, ny, i, j, state, from, to
+        integer :: nx, ny, i, j, state
         logical :: is_falling, is_hot, varies, is_curved
 
-        nx = grid(1)
-        ny = grid(2)
+        nx = ellipse%nx
+        ny = ellipse%ny
         a = ellipse%a
         b = ellipse%b
         y0 = ellipse%y
-        l1 = 8.0_wp*a/(3.0_wp*c%c11*g) ! Given: Kalker (1982)
-        l2 = 8.0_wp*a/(3.0_wp*c%c22*g) ! Given: Kalker (1982)
-        l3 = pi*a*sqrt(a/b)/(4.0_wp*c%c23*g)
+        g = ellipse%g
+        mu = ellipse%mu
+        associate (c => ellipse%c)
+            l1 = 8.0_wp*a/(3.0_wp*c%c11*g) ! Given: Kalker (1982)
+            l2 = 8.0_wp*a/(3.0_wp*c%c22*g) ! Given: Kalker (1982)
+            l3 = pi*a*sqrt(a/b)/(4.0_wp*c%c23*g)
+        end associate
         pmax = 1.5_wp*ellipse%load/(pi*a*b) ! Given: Hertz
         width = 2.0_wp*b/ny
         motion = creepage
         is_curved = .false.
         if (present(strips)) is_curved = strips%is_curved
-        if (is_curved) then
-            from = 1
-            to = strips%n
-            if (present(first)) from = first
-            if (present(last)) to = last
-            motion = patch_motion(strips, from, to, creepage)
-        end if
+        if (is_curved) motion = patch_motion(strips, ellipse%first, ellipse%last, creepage)
         ! Motion at the middle of the ellipse.
         cksi = motion%cksi - y0*motion%cphi
         if (variant%single_flexibility) then
@@ -371,8 +397,8 @@ contains
             ceta = motion%ceta
             cphi = motion%cphi
             if (is_curved) then
-                rest = rest_of_slip(slip_between(strips, from, to, y0 + y, creepage), y0 + y, &
-                                    creepage, motion)
+                rest = rest_of_slip(slip_between(strips, ellipse%first, ellipse%last, y0 + y, &
+                                                 creepage), y0 + y, creepage, motion)
                 slope_x = slope_x + rest%cksi/l1
                 ceta = ceta + rest%ceta
                 cphi = cphi + rest%cphi
@@ -434,8 +460,8 @@ contains
                                                      pmax*sqrt(place), px, py, sx, sy, state)
             end do
             if (is_curved .and. present(per_strip)) &
-                call add_between(strips, from, to, y0 + y, [result%fx, result%fy] - before, &
-                                 per_strip%fx, per_strip%fy)
+                call add_between(strips, ellipse%first, ellipse%last, y0 + y, &
+                                 [result%fx, result%fy] - before, per_strip%fx, per_strip%fy)
         end do
     end subroutine add_ellipse
 

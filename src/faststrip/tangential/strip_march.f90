@@ -458,7 +458,8 @@ contains
         do i = first, last
             associate (p0 => strips%p0(i), xd => strips%half_length(i), &
                        width => strips%y_right(i) - strips%y_left(i))
-                mu = strip_mu(strips, i, rolling%mu, friction)
+                mu = rolling%mu
+                if (friction%table%n > 0) mu = strip_mu(strips, i, mu, friction)
                 if (mu*strip_load(p0, xd, width) <= nothing) cycle
                 k = block%n + 1
                 block%n = k

@@ -76,6 +76,9 @@ module faststrip_kalker_tangential
         integer :: max_steps = most_steps       !! of Newton's method for each of three attempts
         logical :: warm_start = .false. !! from the last solution, if it had as many elements
         integer :: most_elements = tang_most_elements !! in contact
+        type(creepage_t), allocatable :: own(:)
+            !! on a curved surface, in rolling: what each row of the grid has of slip, at its
+            !! middle, and of spin beside the creepage
     end type tang_options_t
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread. Arrays
@@ -103,7 +106,7 @@ contains
     !> `st_no_contact`, `st_out_of_range` (more elements in contact than allowed; sizes beyond all
     !> proportion), `st_workspace_too_small` (the field, no memory), `st_no_convergence`.
     subroutine tang_solve(workspace, grid, material, mu, creepage, options, result, status, &
-                          field, friction, history, own)
+                          field, friction, history)
         type(tang_workspace_t), intent(inout) :: workspace !! needs no preparation
         type(contact_grid_t), intent(in) :: grid        !! pressures in MPa; heights do not count
         type(material_t), intent(in) :: material        !! moduli in MPa
@@ -122,9 +125,6 @@ contains
         type(tang_history_t), intent(in), optional :: history
             !! of a shift: the step before, of the same materials; creepage and friction work are
             !! those since then
-        type(creepage_t), intent(in), optional :: own(:)
-            !! on a curved surface, in rolling: what each row of the grid has of slip, at its
-            !! middle, and of spin beside the creepage
 
         type(friction_t) :: law
 
@@ -152,7 +152,7 @@ contains
         if (is_error(status)) return
         call make_problem(workspace%problem, grid, material, creepage, &
                           options%motion == motion_rolling, options%scheme, options%edges, &
-                          options%most_elements, status, history, own)
+                          options%most_elements, status, history, options%own)
         if (is_error(status)) return
         if (present(field)) then
             call empty_field(field, workspace%problem%n, status)
@@ -187,7 +187,7 @@ contains
         if (options%motion == motion_rolling) result%friction_power = &
             max(-(result%fx*creepage%cksi + result%fy*creepage%ceta + result%mz*creepage%cphi) &
                 - power_on_pressed(workspace%newton, workspace%problem) &
-                - power_on_own(workspace%newton, workspace%problem, grid, own), 0.0_wp)
+                - power_on_own(workspace%newton, workspace%problem, grid, options%own), 0.0_wp)
     end subroutine tang_solve
 
     !> Tractions under a bound that may fall with their slip.

@@ -25,13 +25,11 @@ module faststrip_contact_method_faststrip
     end type faststrip_method_t
 
     type(faststrip_method_t), target, save :: faststrip_method = faststrip_method_t( &
-        about=tangential_table(findloc(tangential_table%number, tangential_faststrip, dim=1)), &
-        gives_strip_forces=.true.)
+        about=tangential_table(findloc(tangential_table%number, tangential_faststrip, dim=1)))
         !! FASTSTRIP
     type(faststrip_method_t), target, save :: plain_faststrip_method = faststrip_method_t( &
         about=tangential_table(findloc(tangential_table%number, tangential_faststrip_plain, &
-                                       dim=1)), gives_strip_forces=.true., &
-        is_corrected=.false.)
+                                       dim=1)), is_corrected=.false.)
         !! FASTSTRIP without its correction
 
 contains

@@ -25,7 +25,7 @@ module faststrip_contact_method_surface
     private
 
     public :: check_surface, lay_strips, flatten_load, turn_forces, find_lean, lateral_share
-    public :: add_pressure_errors, shift_pressure_errors, add_turn_errors
+    public :: conformal_turn, add_pressure_errors, shift_pressure_errors, add_turn_errors
 
     ! What a half-space leaves out of a contact that turns by 2 theta, over theta^2; `conformal`
     ! begins at theta = 0.17.
@@ -114,15 +114,14 @@ contains
 
     !> Add what a half-space leaves out of a contact whose surfaces turn so far that it is
     !> `conformal` to the estimated errors of its pressures.
-    pure subroutine add_pressure_errors(workspace, case, result, status)
-        type(workspace_t), intent(in) :: workspace      !! with the solution
+    pure subroutine add_pressure_errors(turn, case, result, status)
+        real(wp), intent(in) :: turn                    !! of `conformal_turn`, rad
         type(contact_case_t), intent(in) :: case        !! that was solved
         type(contact_result_t), intent(inout) :: result !! gets the errors, if it has some
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
-        if (is_error(status) .or. .not. result%is_estimated) return
-        if (.not. conformal_turn(workspace) > 0.0_wp) return
-        call shift_pressure_errors(workspace, 1.0_wp, result)
+        if (is_error(status) .or. .not. turn > 0.0_wp) return
+        call shift_pressure_errors(turn**2, result)
         associate (errors => result%normal_errors)
             if (.not. btest(status%limitations, st_under_resolved)) &
                 call name_resolution(errors%est_err_penetration, errors%est_err_pmax, &
@@ -130,37 +129,32 @@ contains
         end associate
     end subroutine add_pressure_errors
 
-    !> Add it, or with -1 take it away, for estimates of forces that know nothing of it.
-    pure subroutine shift_pressure_errors(workspace, times, result)
-        type(workspace_t), intent(in) :: workspace      !! with the solution
-        real(wp), intent(in) :: times                   !! how often
-        type(contact_result_t), intent(inout) :: result !! its errors are shifted, if it has some
+    !> Add it, or the negative to take it away, for estimates of forces that know nothing of it.
+    pure subroutine shift_pressure_errors(squared, result)
+        real(wp), intent(in) :: squared                 !! of `conformal_turn`, squared
+        type(contact_result_t), intent(inout) :: result !! its errors are shifted
 
-        real(wp) :: turn
-
-        if (.not. result%is_estimated) return
-        turn = times*conformal_turn(workspace)**2
         associate (errors => result%normal_errors)
-            errors%est_err_penetration = errors%est_err_penetration + lost_of_penetration*turn
-            errors%est_err_pmax = errors%est_err_pmax + lost_of_pmax*turn
-            errors%est_err_area = errors%est_err_area + lost_of_area*turn
+            errors%est_err_penetration = errors%est_err_penetration + lost_of_penetration*squared
+            errors%est_err_pmax = errors%est_err_pmax + lost_of_pmax*squared
+            errors%est_err_area = errors%est_err_area + lost_of_area*squared
         end associate
     end subroutine shift_pressure_errors
 
     !> The same of the forces: in the plane also what turning its pressures and the strips' own slip
     !> would change.
-    pure subroutine add_turn_errors(workspace, case, result, status)
+    pure subroutine add_turn_errors(workspace, turn, case, result, status)
         type(workspace_t), intent(in) :: workspace      !! with the solution
+        real(wp), intent(in) :: turn                    !! of `conformal_turn`, rad
         type(contact_case_t), intent(in) :: case        !! that was solved
         type(contact_result_t), intent(inout) :: result !! gets the errors, if it has some
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
-        real(wp) :: turn, lean, depth, bound, slip, added(2)
+        real(wp) :: lean, depth, bound, slip, added(2)
 
-        if (is_error(status) .or. .not. result%forces_are_estimated) return
-        turn = conformal_turn(workspace)
+        if (is_error(status) .or. .not. (turn > 0.0_wp .and. result%forces_are_estimated)) return
         bound = workspace%mu*result%normal%load
-        if (.not. (turn > 0.0_wp .and. bound > 0.0_wp)) return
+        if (.not. bound > 0.0_wp) return
         call find_means(workspace%solver%curve, workspace%strips, lean, depth)
         added = lost_of_forces*turn**2
         if (.not. case%curved) then
@@ -209,13 +203,18 @@ contains
         depth = depth/load
     end subroutine find_means
 
-    !> Half of what the surfaces turn by, if that makes the contact `conformal`, rad; else zero.
-    pure real(wp) function conformal_turn(workspace) result(turn)
-        type(workspace_t), intent(in) :: workspace
+    !> Half of what the surfaces turn by, if that makes the contact `conformal` and errors are
+    !> estimated, rad; else zero.
+    pure real(wp) function conformal_turn(workspace, result) result(turn)
+        type(workspace_t), intent(in) :: workspace   !! with the solution
+        type(contact_result_t), intent(in) :: result !! its figures
 
         turn = 0.0_wp
-        if (workspace%solver%curve%n == 0) return
-        turn = turn_of_contact(workspace%solver%curve, workspace%strips)
+        if (.not. result%is_estimated) return
+        associate (curve => workspace%solver%curve)
+            if (curve%n == 0 .or. .not. curve%inclination_is_known) return
+            turn = turn_of_contact(curve, workspace%strips)
+        end associate
         turn = merge(0.5_wp*turn, 0.0_wp, turn > doubtful_inclination)
     end function conformal_turn
 
