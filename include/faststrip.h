@@ -236,6 +236,11 @@ typedef struct faststrip_result {
     int target_is_known;    /* 1: est_err_target is known; 0: zero */
     int target_is_met;      /* 1: est_err_target is within the tolerance */
     double est_err_target;  /* estimated error of the target of auto */
+    int temperatures_are_known; /* 1: the four below are known; 0: zero, not asked for */
+    double flash_temperature; /* largest rise by the heat of friction, K */
+    double temperature_max; /* largest temperature of the surfaces in contact, C */
+    double temperature_x;   /* x of the largest temperature, mm */
+    double temperature_y;   /* y of the largest temperature, mm */
 } faststrip_result;
 
 /* Memory of one contact: capacity, gap, last solution. From faststrip_new. */

@@ -126,6 +126,10 @@ python plots/overview.py
 == stresses below a contact
 faststrip contact example/s1002_uic60.nml --shift 0 -o /dev/null --below out/below.csv
 python plots/subsurface.py
+== a flange root on its curved surface
+faststrip contact example/cases/curve_flange_root.nml --curved -o /dev/null \
+    --strips out/strips.csv --gap out/gap.csv
+python plots/curved_surface.py
 == a wheelset on its track, from side to side
 faststrip wheelset example/wheelset_states.nml --states example/wheelset_states.csv \
     -o out/wheelset.csv --strips out/wheelset_strips.csv --profiles out/wheelset_profiles.csv \

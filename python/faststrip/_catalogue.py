@@ -182,6 +182,9 @@ class Figures(ctypes.Structure):
                  "est_err_ceta"),
         *members(c_int, "n_steps", "best_step", "target_is_known", "target_is_met"),
         *members(c_double, "est_err_target"),
+        *members(c_int, "temperatures_are_known"),
+        *members(c_double, "flash_temperature", "temperature_max", "temperature_x",
+                 "temperature_y"),
     ]
 
 

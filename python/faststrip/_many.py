@@ -31,7 +31,7 @@ from ._library import FIRST_ERROR, TEXT, FaststripError, bad_argument, library, 
 from ._profile import Gap
 from ._record import Shown, described
 from ._tables import dataset, dims_of, extra, frame
-from ._wear import CONSTANT, Friction, take_friction
+from ._wear import CONSTANT, Friction, Thermal, take_friction, take_thermal
 
 Array = npt.NDArray[np.float64]
 Whole = npt.NDArray[np.int32]
@@ -102,6 +102,10 @@ class ManyResult(Shown):
     est_err_mz: Array
     est_err_cksi: Array
     est_err_ceta: Array
+    flash_temperature: Array
+    temperature_max: Array
+    temperature_x: Array
+    temperature_y: Array
     # END figures
     est_err_target: Array
     target_is_met: npt.NDArray[np.bool_]
@@ -282,7 +286,8 @@ def solve_many(gaps: Any, *, load: Optional[npt.ArrayLike] = None,
                penetration: Optional[npt.ArrayLike] = None, creepage: Any = (0.0, 0.0, 0.0),
                forces: Tuple[Optional[npt.ArrayLike], Optional[npt.ArrayLike]] = NO_FORCES,
                mu: npt.ArrayLike = 0.3, material: Material = STEEL,
-               friction: Friction = CONSTANT, speed: npt.ArrayLike = 0.0,
+               friction: Friction = CONSTANT, thermal: Optional[Thermal] = None,
+               speed: npt.ArrayLike = 0.0,
                contact_angle: npt.ArrayLike = 0.0, rail_y: npt.ArrayLike = 0.0,
                normal: str = "strip",
                tangential: str = "faststrip", strips_per_patch: Union[int, str] = 15,
@@ -317,9 +322,9 @@ def solve_many(gaps: Any, *, load: Optional[npt.ArrayLike] = None,
         Coefficient of friction.
     speed, contact_angle, rail_y : array_like
         Rolling speed, mm/s, contact angle, rad, and where y = 0 is on the profile of the rail, mm,
-        for friction that needs them.
-    material, friction, normal, tangential, strips_per_patch, points_per_strip, fastsim_grid, \
-estimate, resolution_limit, force_limit, curved, target, tolerance, budget_us
+        for friction and temperatures that need them.
+    material, friction, thermal, normal, tangential, strips_per_patch, points_per_strip, \
+fastsim_grid, estimate, resolution_limit, force_limit, curved, target, tolerance, budget_us
         As of `Contact` and `Contact.solve`, the same for all contacts.
     warm_start : bool
         Start each contact from the one before it, along the last axis first, which is faster
@@ -359,6 +364,8 @@ estimate, resolution_limit, force_limit, curved, target, tolerance, budget_us
     case.by_load = load is not None
     take_material(case, material)
     take_friction(case, friction)
+    case.with_elements = thermal is not None
+    take_thermal(case, thermal)
     want(case, target, tolerance, budget_us)
     case.warm_start = flag("warm_start", warm_start)
     links = whole("chain", chain, 1, MOST_CHAIN) if warm_start else 1
@@ -457,6 +464,7 @@ class _Found:
         not_estimated = figures["is_estimated"] == 0
         unknown = {"errors": not_estimated, "residuals": not_estimated,
                    "force errors": figures["forces_are_estimated"] == 0,
+                   "temperatures": figures["temperatures_are_known"] == 0,
                    "target": figures["target_is_known"] == 0}
         self.columns["status"][here] = statuses
         for name, column in self.columns.items():

@@ -5,6 +5,7 @@
 !> one `kalker_methods_t` a workspace, and a thread; a copy of the workspace shares it.
 module faststrip_kalker_methods
     use faststrip_base_friction, only: falls, softened
+    use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
     use faststrip_base_material, only: normal_compliance
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, add_limitation, &
@@ -17,8 +18,9 @@ module faststrip_kalker_methods
     use faststrip_normal_strips, only: usual_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_stress_loads, only: reserve_loads
+    use faststrip_tangential_strip_slip, only: slip_between, add_between
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, reserve_field, &
-                                          add_element, state_adhesion
+                                          empty_strip_forces, add_element, state_adhesion
     use faststrip_contact_case, only: contact_case_t, asked_t, keeps_elements
     use faststrip_contact_method, only: normal_method_t, tangential_method_t, workspace_t, &
                                         contact_result_t, demand_of, enter_normal_method, &
@@ -39,7 +41,8 @@ module faststrip_kalker_methods
     use faststrip_kalker_normal_options, only: fitting_side
     use faststrip_kalker_normal_rows, only: rows_as_strips, count_rows
     use faststrip_kalker_tangential, only: tang_options_t, tang_workspace_t, tang_solve, &
-                                           release_tang, edges_of_norm, edges_sampled, are_alike
+                                           release_tang, take_tractions, edges_of_norm, &
+                                           edges_sampled, are_alike
     use faststrip_kalker_tangential_estimate, only: estimate_tang, shares_of_grid, &
                                                     shares_of_strips
     use faststrip_kalker_tangential_pressures, only: sample_strips, sample_ellipse
@@ -136,6 +139,7 @@ contains
         kalker%tang%about = tangential_table(findloc(tangential_table%number, tangential_tang, &
                                                      dim=1))
         kalker%tang%cuts_creepages = .false.
+        kalker%tang%gives_strip_forces = .false.
         kalker%tang%memory => kalker%memory
         call enter_normal_method(workspace, kalker%norm, status)
         if (.not. is_error(status)) call enter_tangential_method(workspace, kalker%tang, status)
@@ -307,11 +311,15 @@ contains
             if (workspace%solved_by == normal_norm .and. .not. are_alike(case%material)) then
                 call converge_by_tang(memory, workspace, case, result, status)
                 if (.not. is_error(status)) call take_rows(memory, workspace, status)
+                if (.not. is_error(status)) &
+                    call share_rows(memory%dissimilar%tang, memory%norm%grid, workspace, case)
             else if (workspace%solved_by == normal_norm) then
                 call prepare_grid(memory, memory%norm%grid, workspace, case, status)
                 if (is_error(status)) return
                 call solve_on_grid(memory%tang, memory%norm%grid, edges_of_norm, workspace, case, &
                                    result%tangential, status, asked_field(workspace, case))
+                if (.not. is_error(status)) &
+                    call share_rows(memory%tang, memory%norm%grid, workspace, case)
             else
                 call sample_pressures(workspace, case%methods, 1.0_wp, memory%grid, status)
                 if (is_error(status)) return
@@ -319,9 +327,52 @@ contains
                 if (is_error(status)) return
                 call solve_on_grid(memory%tang, memory%grid, edges_sampled, workspace, case, &
                                    result%tangential, status, asked_field(workspace, case))
+                if (.not. is_error(status)) &
+                    call share_rows(memory%tang, memory%grid, workspace, case)
             end if
         end associate
     end subroutine solve_by_tang
+
+    !> What each row of a grid has of slip of its own; without a curved surface nothing.
+    pure subroutine find_own(grid, workspace, case, own)
+        type(contact_grid_t), intent(in) :: grid
+        type(workspace_t), intent(in) :: workspace ! with strips that are laid
+        type(contact_case_t), intent(in) :: case
+        type(creepage_t), allocatable, intent(out) :: own(:)
+
+        integer :: j
+
+        if (.not. workspace%strips%is_curved) return
+        allocate (own(grid%ny))
+        do j = 1, grid%ny
+            own(j) = slip_between(workspace%strips, 1, workspace%strips%n, element_y(grid, j), &
+                                  case%creepage)
+        end do
+    end subroutine find_own
+
+    !> Share the forces of the rows of a curved surface between the strips about them.
+    subroutine share_rows(tang, grid, workspace, case)
+        type(tang_workspace_t), intent(in) :: tang    ! with tractions
+        type(contact_grid_t), intent(in) :: grid      ! that they stand on
+        type(workspace_t), intent(inout) :: workspace ! its strips' forces are filled
+        type(contact_case_t), intent(in) :: case
+
+        type(status_t) :: status
+        real(wp), allocatable :: px(:, :), py(:, :)
+        integer :: j
+
+        if (.not. case%curved) return
+        call empty_strip_forces(workspace%strip_forces, workspace%strips%n, status)
+        if (is_error(status)) return
+        allocate (px(grid%nx, grid%ny), py(grid%nx, grid%ny))
+        call take_tractions(tang, grid, px, py)
+        do j = 1, grid%ny
+            if (.not. any(grid%pressure(:, j) > 0.0_wp)) cycle
+            call add_between(workspace%strips, 1, workspace%strips%n, element_y(grid, j), &
+                             grid%dx*grid%dy*[sum(px(:, j)), sum(py(:, j))], &
+                             workspace%strip_forces%fx, workspace%strip_forces%fy)
+        end do
+    end subroutine share_rows
 
     !> Solve both problems of dissimilar materials in turn on NORM's grid, until its pressures stay.
     subroutine converge_by_tang(memory, workspace, case, result, status)
@@ -342,6 +393,7 @@ contains
         problem%options%edges = edges_of_norm
         call check_flexibility(workspace, case, status)
         if (is_error(status)) return
+        call find_own(memory%norm%grid, workspace, case, problem%options%own)
         associate (grid => memory%norm%grid)
             call memory%watch_tang(count(grid%pressure > 0.0_wp), .true.)
             if (keeps_elements(case)) &
@@ -380,7 +432,7 @@ contains
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
         real(wp), intent(in), optional :: finer         !! of no use here
 
-        type(tangential_result_t) :: coarse
+        type(tangential_result_t) :: fine, coarse
         type(status_t) :: estimate
         character(len=message_length) :: words
         logical :: is_norm
@@ -406,16 +458,18 @@ contains
                 call add_limitation(status, st_under_resolved, words)
                 return
             end if
+            fine = result%tangential
+            if (result%is_curved) fine = result%along
             if (is_norm) then
-                errors = estimate_tang(memory%norm%grid, workspace%mu, result%tangential, &
+                errors = estimate_tang(memory%norm%grid, workspace%mu, fine, &
                                        coarse, shares_of_grid(result%normal_errors))
             else if (workspace%is_ellipse) then
-                errors = estimate_tang(memory%grid, workspace%mu, result%tangential, &
+                errors = estimate_tang(memory%grid, workspace%mu, fine, &
                                        coarse, spread(0.0_wp, 1, 3))
                 call add_shape_errors(workspace, case, errors, estimate)
                 if (is_error(estimate)) return
             else
-                errors = estimate_tang(memory%grid, workspace%mu, result%tangential, &
+                errors = estimate_tang(memory%grid, workspace%mu, fine, &
                                        coarse, shares_of_strips(result%normal_errors))
             end if
             result%forces_are_estimated = .true.
@@ -483,6 +537,7 @@ contains
         call check_flexibility(workspace, case, status)
         if (is_error(status)) return
         options%edges = edges
+        call find_own(grid, workspace, case, options%own)
         call tang_solve(tang, grid, softened(case%material, workspace%friction), workspace%mu, &
                         case%creepage, options, tangential, status, field, workspace%friction)
     end subroutine solve_on_grid

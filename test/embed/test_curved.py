@@ -160,6 +160,17 @@ class Curved(HostTest):
         self.assertEqual([float(many.load), float(many.fx), float(many.fy), float(many.mz)],
                          self.forces)
 
+    def test_a_lateral_force_is_that_of_the_frame(self):
+        with self.package.Contact(curved=True) as contact:
+            contact.set_gap((Y, GAP, 1e-3, TURN))
+            found = contact.solve(load=LOAD, creepage=(0.0, 0.0, CREEPAGE[2]), mu=MU,
+                                  forces=tuple(self.forces[1:3]))
+        self.assertAlmostEqual(found.load, LOAD, delta=1e-6 * LOAD)
+        self.assertAlmostEqual(found.fx, self.forces[1], delta=2e-5 * MU * LOAD)
+        self.assertAlmostEqual(found.fy, self.forces[2], delta=2e-5 * MU * LOAD)
+        for got, wanted in zip((found.cksi, found.ceta), CREEPAGE):
+            self.assertAlmostEqual(got / wanted, 1.0, delta=5e-3)
+
     def test_the_program_and_pairs(self):
         self.write("case.nml", "&contact load_N = 9e4\nshift_mm = 6.3\n/\n&wheel\n"
                    "profile = 's1002'\n/\n&rail profile = '60e1'\n/\n&material mu = 0.3\n/\n"
@@ -186,6 +197,56 @@ class Curved(HostTest):
                     stderr=subprocess.DEVNULL, encoding="utf-8")
                 row, = csv.DictReader(line for line in done.stdout.splitlines() if line[0] != "#")
                 self.assertEqual("conformal" in row["limitations"].split(), wanted != "", method)
+
+    def test_gap_files_tell_their_inclination(self):
+        # A gap file with the column serves contacts and rows of a batch; the program writes it.
+        rows = [",".join(map(repr, row)) for row in zip(Y, GAP, [1e-3] * len(Y), TURN)]
+        head = "y_mm,h_mm,inv2R_per_mm"
+        self.write("turned.csv", "\n".join([head + ",inclination_rad", *rows]) + "\n")
+        self.write("flat.csv", "\n".join([head, *(row.rsplit(",", 1)[0] for row in rows)]) + "\n")
+        motion = "".join(f",{value!r}" for value in CREEPAGE)
+        self.write("batch.csv", "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm,curved\n"
+                   + "".join(f"{word or 'empty'},{gap}.csv,209920,0.28,{MU},{LOAD}{motion},{word}\n"
+                             for gap, word in (("turned", ".true."), ("turned", ""),
+                                               ("turned", ".false."), ("flat", ".true."),
+                                               ("turned", "so"))))
+
+        def run(*arguments, code=0):
+            done = subprocess.run([ROOT / "bin" / "faststrip", *arguments], cwd=self.folder,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
+                                  check=False)
+            self.assertEqual(done.returncode, code, done.stderr)
+            return done
+
+        def forces(row):
+            return [float(row[name]) for name in ("N_N", "Fx_N", "Fy_N", "Mz_Nmm")]
+
+        with self.package.Contact() as contact:
+            contact.set_gap((Y, GAP, 1e-3, TURN))
+            plane = contact.solve(load=LOAD, creepage=CREEPAGE, mu=MU)
+        plane = [plane.load, plane.fx, plane.fy, plane.mz]
+        for option, empty in (((), plane), (("--curved",), self.forces)):
+            done = run("batch", "batch.csv", *option, code=1)
+            found = list(csv.DictReader(line for line in done.stdout.splitlines()
+                                        if line[0] != "#"))
+            for row, wanted in zip(found, (self.forces, empty, plane)):
+                for value, number in zip(forces(row), wanted):
+                    self.assertAlmostEqual(value, number, delta=1e-7 * abs(number))
+            self.assertEqual([row["status"] for row in found[3:]],
+                             ["bad_argument", "file_format"])
+            self.assertIn("inclination", done.stderr)
+            self.assertIn("curved must be .true. or .false., got 'so'", done.stderr)
+        self.write("gap.nml", f"&contact gap_file = 'turned.csv'\nload_N = {LOAD}\n/\n"
+                   f"&material mu = {MU}\n/\n&motion cksi = {CREEPAGE[0]}\nceta = {CREEPAGE[1]}\n"
+                   f"cphi_rad_per_mm = {CREEPAGE[2]}\n/\n")
+        row, = csv.DictReader(
+            line for line in run("contact", "gap.nml", "--curved", "--gap",
+                                 "again.csv").stdout.splitlines() if line[0] != "#")
+        for value, number in zip(forces(row), self.forces):
+            self.assertAlmostEqual(value, number, delta=1e-7 * abs(number))
+        lines = (self.folder / "again.csv").read_text(encoding="utf-8").splitlines()
+        again = list(csv.DictReader(line for line in lines if line[0] != "#"))
+        self.assertEqual([float(row["inclination_rad"]) for row in again], TURN)
 
     def test_wheelsets_balance_with_it(self):
         # Left is right in a mirror, back is ahead; the force in the track is the contacts' own.
@@ -218,5 +279,5 @@ class Curved(HostTest):
         turned.set_gap((Y, GAP, 1e-3, TURN))
         self.all_refused(
             ("inclination", lambda: contact.solve(load=LOAD)),
-            ("lateral force", lambda: turned.solve(load=LOAD, forces=(None, 1e3))),
+            ("curved surface", lambda: turned.solve(load=LOAD, forces=(None, 3e4))),
             ("curved", lambda: package.Contact(curved="yes")))

@@ -119,6 +119,19 @@ class Heat(HostTest):
             hottest = contact.temperatures(elements.x, elements.y)[0].max()
             self.assertAlmostEqual(hottest, contact.flash().temperature_max, places=9)
 
+    def test_many(self):
+        many = self.package.solve_many(
+            (Y, GAP, 1.0 / 920.0), **self.case(load=[LOAD, 0.5 * LOAD, -1.0], threads=2))
+        self.assertEqual(many.fx[0], self.force)
+        for name, wanted in zip(("flash_temperature", "temperature_max", "temperature_x",
+                                 "temperature_y"), self.flash):
+            found = getattr(many, name)
+            self.assertEqual(found[0], wanted)
+            self.assertTrue(math.isnan(found[2]))
+        self.assertLess(many.flash_temperature[1], many.flash_temperature[0])
+        cold = self.package.solve_many((Y, GAP, 1.0 / 920.0), load=LOAD)
+        self.assertTrue(math.isnan(cold.temperature_max))
+
     def test_c(self):
         x, y = (", ".join(map(repr, one)) for one in zip(*PLACES))
         self.write("heat.c", C_CALLER % (x, y, LOAD, MU, *CREEPAGE, SPEED, *BODIES, *HOT))

@@ -79,6 +79,11 @@ RIG = ("# faststrip 0.1.0 rev abc\n# compiler\ncase,side,contact,x_track_mm,cphi
     for case in (1, 2, 3) for side in ("left", "right"))
 FILES |= {"out/roller_rig.csv": RIG, "out/roller_rig_rails.csv": RIG,
           "example/roller_rig_states.csv": "case,yaw_rad\n1,0\n2,0.005\n3,0.01\n"}
+FILES |= {"out/strips.csv": "# faststrip 0.1.0 rev abc\n# compiler\n"
+                            "y_left_mm,y_right_mm,load_N,Fy_N\n" + "".join(
+    f"{y},{y + 1},{3e4 - 1e3 * y * y},{3e3 * y}\n" for y in range(-5, 5)),
+          "out/gap.csv": "# faststrip 0.1.0 rev abc\n# compiler\ny_mm,h_mm,inclination_rad\n"
+                         + "".join(f"{y},{1e-3 * y * y},{0.05 * y}\n" for y in range(-9, 10))}
 LOOKED_UP = ("# faststrip 0.1.0 rev abc\n# compiler\na_mm,b_mm,N_N,mu,G_MPa,cksi,ceta,"
              "cphi_rad_per_mm,Fx_N,Fy_N,Mz_Nmm,Fx_linear_N,Fy_linear_N,Mz_linear_Nmm,Fx_cubic_N,"
              "Fy_cubic_N,Mz_cubic_Nmm\n") + "".join(
@@ -91,6 +96,7 @@ PICTURES = {
     "traction_curve": ("out/traction_curve.png",),
     "roller_rig": ("out/roller_rig.png",),
     "subsurface": ("out/subsurface.png",),
+    "curved_surface": ("out/curved_surface.png",),
     "profiles": ("out/profiles_shift_0.png",),
     "patches": ("out/patch_shift_0.png", "out/pressure_shift_0.png"),
     "sweep": ("out/sweep_normal.png", "out/sweep_tangential.png"),
@@ -104,6 +110,7 @@ COLUMNS = {
     "traction_curve": ("out/traction_faststrip.csv", "Fx_N"),
     "roller_rig": ("out/roller_rig_rails.csv", "Fx_track_N"),
     "subsurface": ("out/below.csv", "von_mises_MPa"),
+    "curved_surface": ("out/gap.csv", "inclination_rad"),
     "profiles": ("out/profiles_shift_0.csv", "z_mm"),
     "patches": ("out/strips_shift_0.csv", "half_length_mm"),
     "sweep": ("out/sweep.csv", "Mz_Nmm"),

@@ -173,6 +173,7 @@ def written(program):
                          F77)}
     told = {row["member"]: in_words(row) for row in rows if row["member"]}
     told["limitations"] = ""
+    needs = {row["member"]: row["needs"] for row in rows}
     structs = {"Case": ("faststrip_case", members_of(read[STRUCTS], "c_case_t")),
                "Figures": ("faststrip_result", members_of(read[STRUCTS], "c_result_t")),
                "Row": ("faststrip_wheelset_contact", members_of(read[WHEELSETS], "c_contact_t"))}
@@ -188,12 +189,14 @@ def written(program):
         f77 = between(f77, begin, end, of_f77(read[ROWS], row, told))
     members = [name for kind, name, _ in structs["Figures"][1]
                if name in told and name not in ("limitations", "est_err_target")]
+    # A contact alone has temperatures in a class of their own.
+    cold = [one for one in members if needs.get(one) != "temperatures"]
     # Of wheelsets the motion gives the creepages, which have members of their own.
-    moved = [one for one in members if "cksi" not in one and "ceta" not in one]
+    moved = [one for one in cold if "cksi" not in one and "ceta" not in one]
     plain = "float", "Optional[float]", "int"
     classes = {}
     for name, part, names, kinds in (
-            ("_results", "figures", members, plain),
+            ("_results", "figures", cold, plain),
             ("_many", "figures", [one for one in members if one != "n_elements"],
              ("Array", "Array", "Whole")),
             ("_wheelset", "figures", moved[:moved.index("n_patches")], plain),

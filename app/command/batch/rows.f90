@@ -11,7 +11,9 @@ module faststrip_command_batch_rows
     use faststrip_files_csv, only: csv_table_t, require_column, column_index, &
                                    cell_text, cell_number, put_cell, end_row, take_only_row, &
                                    refuse_misspelt
-    use faststrip_command_settings_friction, only: read_row_friction, friction_columns
+    use faststrip_command_settings_friction, only: read_row_friction, read_row_values, &
+                                                   friction_columns
+    use faststrip_command_settings_table, only: row_numerics, value_t
     use faststrip_command_settings_thermal, only: read_row_thermal, thermal_columns
     use faststrip_command_settings_group, only: beside
     use faststrip_command_program_console, only: concerns_gap
@@ -45,6 +47,7 @@ module faststrip_command_batch_rows
         integer :: given(2) = 0    ! the same
         logical :: has_friction = .false. ! is there one of `friction_columns`?
         logical :: has_heat = .false.     ! and of `thermal_columns`?
+        logical :: has_numerics = .false. ! and of `row_numerics`?
     end type row_columns_t
 
 contains
@@ -77,6 +80,7 @@ contains
         if (is_error(status)) return
         columns%has_friction = has_any(friction_columns)
         columns%has_heat = has_any(thermal_columns)
+        columns%has_numerics = has_any(row_numerics%key)
         do i = 1, table%n_columns
             if (.not. any(result_columns == table%names(i)%text)) cycle
             ! A table that has a column the result would add cannot be carried through.
@@ -196,6 +200,7 @@ contains
         type(contact_case_t), intent(inout) :: case
         type(status_t), intent(out) :: status
 
+        type(value_t) :: values(size(row_numerics))
         real(wp) :: number(3:9)
         integer :: i
 
@@ -239,5 +244,9 @@ contains
             call read_row_friction(table, 1, case%mu, case%friction, status)
         if (columns%has_heat .and. .not. is_error(status)) &
             call read_row_thermal(table, 1, case, status)
+        if (columns%has_numerics .and. .not. is_error(status)) then
+            call read_row_values(table, 1, row_numerics%key, row_numerics, values, status)
+            if (values(1)%is_given) case%curved = values(1)%flag
+        end if
     end subroutine read_row
 end module faststrip_command_batch_rows

@@ -100,19 +100,24 @@ contains
     !> The gap, one row a point.
     subroutine put_gap(writer, gap, smoothing)
         type(csv_writer_t), intent(inout) :: writer !! an open file
-        type(gap_curve_t), intent(in) :: gap        !! as it was solved, mm, mm, 1/mm
+        type(gap_curve_t), intent(in) :: gap        !! as it was solved, mm, mm, 1/mm, rad
         real(wp), intent(in) :: smoothing           !! noise it was smoothed for, mm; 0: it was not
 
-        integer :: i
+        character(len=15), parameter :: names(4) = [character(len=15) :: &
+            'y_mm', 'h_mm', 'inv2R_per_mm', 'inclination_rad']
+        integer :: i, columns
 
         call put_origin(writer)
         ! Given: um.
         if (smoothing > 0.0_wp) &
             call put_comment(writer, 'smoothed for a noise of ' // &
                              trim(number_text(1.0e3_wp*smoothing)) // ' um, rms')
-        call put_header(writer, [character(len=12) :: 'y_mm', 'h_mm', 'inv2R_per_mm'])
+        columns = 3
+        if (gap%inclination_is_known) columns = 4
+        call put_header(writer, names(:columns))
         do i = 1, gap%n
             call put_cells(writer, [gap%y(i), gap%h(i), gap%inv2r(i)])
+            if (gap%inclination_is_known) call put_cell(writer, gap%inclination(i))
             call end_row(writer)
         end do
     end subroutine put_gap

@@ -20,7 +20,8 @@ module faststrip_command_settings_table
     implicit none
     private
 
-    public :: setting_t, value_t, settings, row_friction, thermal_settings, n_state, state_names
+    public :: setting_t, value_t, settings, row_friction, row_numerics, thermal_settings, n_state, &
+              state_names
     public :: of_group
     public :: find_setting, read_value, kind_words, range_words, full_words, option_help, one_of
     public :: a_text, a_path, a_word, a_number, a_list, a_flag
@@ -339,6 +340,10 @@ module faststrip_command_settings_table
     !> How many numbers a state has.
     !> Given: as many as rows.
     integer, parameter :: n_state = 27
+
+    !> What of it each row of a batch may have.
+    type(setting_t), parameter :: row_numerics(1) = &
+        [of_numerics(findloc(of_numerics%key, 'curved', dim=1))]
 
     ! The numbers of a state in the order of `take_state`, after the side.
     type(setting_t), parameter :: of_state(1 + n_state) = [ &

@@ -12,6 +12,10 @@
 !> itself, then updated by Broyden's (1965) formula. A warm start begins with `z - R` and A of the
 !> last search. What does not come nearer is halved.
 !>
+!> A lateral force on a curved surface is that in the frame of the contact, of pressures and
+!> tractions. Sought is the force along the surface that, shared by load, gives what pressures leave
+!> of it; what the method's own strips give is held against that.
+!>
 !> Where friction falls with slip, forces do not grow beyond a largest one, and behind it every
 !> force down to that of the kinetic coefficient is met again: steps from adhesion end at the
 !> answer with less slip.
@@ -28,6 +32,7 @@ module faststrip_contact_given_forces
     use faststrip_contact_cut, only: solve_tried
     use faststrip_contact_method, only: contact_result_t, workspace_t, tangential_method_t, &
                                         found_motion_t
+    use faststrip_contact_method_surface, only: lay_strips, find_lean, lateral_share
     use faststrip_contact_methods, only: method_t, tangential_none, tangential_linear, &
                                          tangential_she, tangential_polach
     use faststrip_tangential_force_map, only: force_map_t, make_force_map, unsaturated, &
@@ -107,6 +112,7 @@ contains
 
         type(contact_case_t) :: tried
         type(force_map_t) :: map
+        real(wp) :: forces(2), pressed, cosine
 
         call clear_status(status)
         call check_given_forces(case%given, case%creepage, method%about, status)
@@ -123,7 +129,10 @@ contains
         map%material = softened(case%material, case%friction)
         map%mu = workspace%mu
         map%force = workspace%mu*result%normal%load
-        call check_size(map, case%given, status)
+        forces = case%given%force
+        call find_lean(workspace%strips, result%normal%load, pressed, cosine)
+        forces(2) = (case%given%force(2) - pressed)/cosine
+        call check_size(map, forces, workspace%strips%is_curved, status)
         if (is_error(status)) return
         tried%contact_terms_t = case%contact_terms_t
         tried%given = given_forces_t()
@@ -131,25 +140,30 @@ contains
         if (is_error(status)) return
         if (workspace%found%is_known) &
             workspace%found%is_known = all(workspace%found%is_given .eqv. map%is_sought)
-        call search(workspace, tried, method, map, case%given%force, result, status)
-        if (.not. is_error(status)) call name_others(map, case, status)
+        call search(workspace, tried, method, map, forces, [pressed, cosine], result, status)
+        if (.not. is_error(status)) call name_others(map, case, forces, status)
     end subroutine solve_given_forces
 
     !> Refuse what is above mu N.
-    pure subroutine check_size(map, given, status)
+    pure subroutine check_size(map, forces, is_curved, status)
         type(force_map_t), intent(in) :: map
-        type(given_forces_t), intent(in) :: given
+        real(wp), intent(in) :: forces(2) ! along the surface, N
+        logical, intent(in) :: is_curved  ! the surface
         type(status_t), intent(out) :: status
 
+        character(len=52) :: along
         real(wp) :: asked
 
         call clear_status(status)
-        asked = size_of(map, given%force)
+        asked = size_of(map, forces)
         if (map%force > 0.0_wp .and. (asked <= map%force*(1.0_wp + rounding) &
                                       .or. map%law == law_linear)) return
+        along = ''
+        if (is_curved .and. map%is_sought(2)) &
+            along = ' along the curved surface, what pressures leave'
         call set_status(status, st_beyond_adhesion, 'a given force must not be above mu N, ' // &
                         trim(number_text(map%force)) // ' N, got ' // &
-                        trim(number_text(asked)) // ' N')
+                        trim(number_text(asked)) // ' N' // along)
     end subroutine check_size
 
     !> Size of the forces that are given, N.
@@ -161,19 +175,20 @@ contains
     end function size_of
 
     !> Search the creepages.
-    subroutine search(workspace, tried, method, map, forces, result, status)
+    subroutine search(workspace, tried, method, map, forces, lean, result, status)
         type(workspace_t), intent(inout) :: workspace
         type(contact_case_t), intent(inout) :: tried ! without given forces; gets creepages
         class(tangential_method_t), intent(in) :: method
         type(force_map_t), intent(in) :: map
-        real(wp), intent(in) :: forces(2)            ! given ones, N
+        real(wp), intent(in) :: forces(2)            ! given ones, along the surface, N
+        real(wp), intent(in) :: lean(2)              ! of `find_lean`
         type(contact_result_t), intent(inout) :: result
         type(status_t), intent(out) :: status
 
         type(found_motion_t) :: now, best
         type(creepage_t) :: best_creepage
         real(wp) :: wanted(2), left, least, step(2), found(2), slopes(2, 2), of_map(2, 2)
-        real(wp) :: largest, miss
+        real(wp) :: largest, miss, got(2)
         integer :: i, in_vain
         logical :: is_flat, is_found
 
@@ -194,15 +209,17 @@ contains
             call find_creepages(map, workspace%strips, now%z, tried%creepage, found, slopes, status)
             if (.not. is_error(status)) call solve_tried(workspace, tried, method, result, status)
             if (is_error(status)) return
+            ! Tractions of dissimilar materials may have changed the pressures.
+            call lay_strips(workspace%solver%curve, tried, workspace%strips)
             now%z = found
-            associate (got => result%tangential)
-                now%r = unsaturated(map, [got%fx, got%fy])
-                largest = max(largest, size_of(map, [got%fx, got%fy]))
-                is_found = size_of(map, [got%fx, got%fy] - forces) <= miss
-            end associate
-            if (is_found) exit
+            got = forces_got(workspace, result, lean)
+            now%r = unsaturated(map, got)
+            largest = max(largest, size_of(map, got))
+            is_found = size_of(map, got - forces) <= miss
             is_flat = .false.
+            ! The last place, too: a warm start goes on with its slopes.
             if (i > 1) call learn(best, now, is_flat)
+            if (is_found) exit
             left = norm2(wanted - now%r)
             if (left < least .or. is_on_the_way(best, now, wanted, falls(tried%friction))) then
                 least = left
@@ -227,9 +244,9 @@ contains
             tried%creepage = best_creepage
             call solve_tried(workspace, tried, method, result, status)
             if (is_error(status)) return
-            associate (got => result%tangential)
-                is_found = size_of(map, [got%fx, got%fy] - forces) <= jump*map%force
-            end associate
+            call lay_strips(workspace%solver%curve, tried, workspace%strips)
+            is_found = size_of(map, forces_got(workspace, result, lean) - forces) &
+                       <= jump*map%force
         end if
         if (.not. is_found) then
             call refuse_search(method%about%name, size_of(map, forces), largest, status)
@@ -241,6 +258,21 @@ contains
         call find_rates(map, forces, slopes, now)
         workspace%found = now
     end subroutine search
+
+    !> Forces that a method found, along the surface, with what has changed of the pressures', N.
+    pure function forces_got(workspace, result, lean) result(got)
+        type(workspace_t), intent(in) :: workspace
+        type(contact_result_t), intent(in) :: result
+        real(wp), intent(in) :: lean(2) ! of `find_lean`, before
+        real(wp) :: got(2)
+
+        real(wp) :: pressed, cosine
+
+        call find_lean(workspace%strips, result%normal%load, pressed, cosine)
+        got = [result%tangential%fx, &
+               lateral_share(workspace%strips, workspace%strip_forces, result%tangential%fy, &
+                             lean(2)) + (pressed - lean(1))/lean(2)]
+    end function forces_got
 
     !> Does a step near mu N lead on, however forces change over it? From above what is wanted to
     !> less slip, from below to more; this not where friction falls, for the largest force may be
@@ -333,15 +365,16 @@ contains
     end subroutine refuse_search
 
     !> Name that other creepages carry the same forces.
-    pure subroutine name_others(map, case, status)
+    pure subroutine name_others(map, case, forces, status)
         type(force_map_t), intent(in) :: map
         type(contact_case_t), intent(in) :: case
+        real(wp), intent(in) :: forces(2) ! along the surface, N
         type(status_t), intent(inout) :: status
 
         real(wp) :: share
 
         if (map%law == law_linear) return
-        share = size_of(map, case%given%force)/map%force
+        share = size_of(map, forces)/map%force
         if (falls(case%friction) .and. &
             share > case%friction%kinetic_share*case%friction%hot_share) then
             call add_limitation(status, st_not_unique, 'where friction falls, other ' // &

@@ -110,9 +110,6 @@ contains
             call check_given_forces(case%given, case%creepage, tangential%about, status)
         if (case%asked%temperatures .and. .not. is_error(status)) &
             call check_heat(case, tangential%about, status)
-        if (case%curved .and. case%given%is_given(2) .and. .not. is_error(status)) &
-            call set_status(status, st_bad_argument, 'a lateral force cannot be given on a ' // &
-                            'curved surface, where pressures have a part of it')
     end subroutine check_contact
 
     !> Refuse friction that is none, and friction that falls with slip where the method cannot do.
@@ -243,6 +240,7 @@ contains
         ! Tractions of dissimilar materials may have changed the pressures.
         call lay_strips(workspace%solver%curve, case, workspace%strips)
         call turn_forces(workspace, result)
+        if (.not. method%gives_strip_forces) workspace%strip_forces%n = 0
         result%has_forces = case%methods%tangential /= tangential_none
         result%knows_stick = result%has_forces .and. method%about%gives_stick
     end subroutine find_forces

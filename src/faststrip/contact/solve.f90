@@ -19,8 +19,9 @@ module faststrip_contact_solve
     use faststrip_contact_method_capacity, only: ellipse_strips
     use faststrip_contact_method_heat, only: find_heat
     use faststrip_contact_method_loads, only: find_stress_peak
-    use faststrip_contact_method_surface, only: check_surface, add_pressure_errors, &
-                                                shift_pressure_errors, add_turn_errors
+    use faststrip_contact_method_surface, only: check_surface, conformal_turn, &
+                                                add_pressure_errors, shift_pressure_errors, &
+                                                add_turn_errors
     use faststrip_contact_methods, only: contact_methods_t, normal_hertz, tangential_none
     use faststrip_contact_parts, only: check_methods, check_contact, set_case_gap, &
                                        find_normal_method, find_tangential_method, &
@@ -126,6 +127,7 @@ contains
         class(tangential_method_t), pointer :: tangential
         type(environment_t) :: environment
         type(lap_t) :: lap
+        real(wp) :: turn
 
         call hold_environment(environment)
         workspace%solved_by = 0
@@ -149,8 +151,9 @@ contains
         else
             call solve_by_methods(workspace, case, normal, tangential, result, status)
         end if
-        call add_pressure_errors(workspace, case, result, status)
-        call add_turn_errors(workspace, case, result, status)
+        turn = conformal_turn(workspace, result)
+        call add_pressure_errors(turn, case, result, status)
+        call add_turn_errors(workspace, turn, case, result, status)
         if (case%asked%temperatures .and. .not. is_error(status)) &
             call find_heat(workspace, case, result, status)
         if (case%asked%subsurface .and. .not. is_error(status)) &
@@ -217,15 +220,17 @@ contains
         class(normal_method_t), pointer :: normal
         class(tangential_method_t), pointer :: tangential
         type(environment_t) :: environment
+        real(wp) :: turn
 
         call hold_environment(environment)
         call check_methods(workspace, case%methods, normal, tangential, status)
         if (.not. is_error(status)) then
-            call shift_pressure_errors(workspace, -1.0_wp, result)
+            turn = conformal_turn(workspace, result)
+            if (turn > 0.0_wp) call shift_pressure_errors(-turn**2, result)
             call add_forces(workspace, case, tangential, result, status)
-            call shift_pressure_errors(workspace, 1.0_wp, result)
+            if (turn > 0.0_wp) call shift_pressure_errors(turn**2, result)
+            call add_turn_errors(workspace, turn, case, result, status)
         end if
-        call add_turn_errors(workspace, case, result, status)
         if (case%asked%subsurface) call find_stress_peak(workspace, case, result, status)
         if (.not. is_error(status)) call find_wear(workspace, case, result)
         if (case%asked%temperatures .and. .not. is_error(status)) &
@@ -244,6 +249,7 @@ contains
         class(normal_method_t), pointer :: normal
         class(tangential_method_t), pointer :: tangential
         type(environment_t) :: environment
+        real(wp) :: turn
 
         call hold_environment(environment)
         call find_normal_method(workspace, workspace%solved_by, normal, status)
@@ -253,8 +259,9 @@ contains
             call normal%estimate(workspace, case, result, status)
             if (result%is_estimated .and. case%methods%tangential /= tangential_none) &
                 call tangential%estimate(workspace, case, result, status)
-            call add_pressure_errors(workspace, case, result, status)
-            call add_turn_errors(workspace, case, result, status)
+            turn = conformal_turn(workspace, result)
+            call add_pressure_errors(turn, case, result, status)
+            call add_turn_errors(workspace, turn, case, result, status)
         end if
         call restore_environment(environment)
     end subroutine estimate_contact

@@ -38,6 +38,9 @@
 !>   and converges. Particles enter with the static value; one that sticks again keeps what it has.
 !>   A coefficient that falls with temperature is that of the heat of the elements ahead in the row
 !>   and its own, under this slip (`hot_share`).
+!>
+!> On a curved surface an ellipse rolls with the mean by load of the motion of the strips under it,
+!> and each row has the rest besides, with L1 along x (`faststrip_tangential_strip_slip`).
 module faststrip_tangential_fastsim
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp, pi
@@ -58,13 +61,15 @@ module faststrip_tangential_fastsim
     use faststrip_tangential_motion, only: check_motion, check_ellipse
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                                      check_strips
-    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
-                                          add_element, stick_share, state_adhesion, &
-                                          state_slip
+    use faststrip_tangential_strip_slip, only: patch_motion, rest_of_slip, slip_between, add_between
+    use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
+                                          empty_field, empty_strip_forces, add_element, &
+                                          stick_share, state_adhesion, state_slip
     implicit none
     private
 
     public :: fastsim_solve, fastsim_strips_solve, fastsim_coefficients_solve, fastsim_variant_t
+    public :: fastsim_curved_solve, fastsim_rolling_t
 
     ! The most elements along x and strips across.
     ! Tuned [elements]. Origin: capacity.
@@ -75,6 +80,25 @@ module faststrip_tangential_fastsim
         logical :: elliptic_bound = .false.     !! or the parabolic one
         logical :: single_flexibility = .false. !! or three
     end type fastsim_variant_t
+
+    !> How a contact rolls.
+    type :: fastsim_rolling_t
+        type(material_t) :: material       !! moduli in MPa
+        real(wp) :: mu = 0.0_wp            !! coefficient of friction, >= 0
+        type(creepage_t) :: creepage       !! about y = 0, rail relative to wheel
+        integer :: nx = 0                  !! elements along x in each row, >= 1
+        integer :: ny = 0                  !! rows across each ellipse, >= 1
+        type(fastsim_variant_t) :: variant !! or Kalker's choice
+    end type fastsim_rolling_t
+
+    !> One ellipse.
+    type, extends(patch_ellipse_t) :: ellipse_t
+        type(kalker_coefficients_t) :: c   ! of the ellipse
+        real(wp) :: g = 0.0_wp             ! combined shear modulus, MPa
+        real(wp) :: mu = 0.0_wp            ! coefficient of friction
+        integer :: nx = 0, ny = 0          ! elements along, rows across
+        integer :: first = 0, last = 0     ! of the strips under it, where they count
+    end type ellipse_t
 
     !> Areas of the elements gone through so far.
     type :: areas_t
@@ -124,8 +148,8 @@ contains
         if (is_error(status)) return
         call kalker_coefficients(hertz%a/hertz%b, combined_poisson_ratio(material), c, status)
         if (is_error(status)) return
-        call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, &
-                         combined_shear_modulus(material), mu, creepage, [nx, ny], &
+        call add_ellipse(ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load, c, &
+                                   combined_shear_modulus(material), mu, nx, ny), creepage, &
                          chosen(variant), result, areas, field, friction)
         result%stick_fraction = stick_share(areas%stuck, areas%covered)
     end subroutine fastsim_solve
@@ -178,8 +202,8 @@ contains
             call set_status(status, st_out_of_range, 'ellipse, load, shear modulus or creepage' // &
                             ' coefficients beyond all proportion')
         else
-            call add_ellipse(patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), c, g, mu, &
-                             creepage, [nx, ny], chosen(), result, areas, field)
+            call add_ellipse(ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load, c, g, mu, nx, ny), &
+                             creepage, chosen(), result, areas, field)
             result%stick_fraction = stick_share(areas%stuck, areas%covered)
         end if
     end subroutine fastsim_coefficients_solve
@@ -203,36 +227,69 @@ contains
         type(fastsim_variant_t), intent(in), optional :: variant !! Kalker's choice without
         type(friction_t), intent(in), optional :: friction !! as of `fastsim_solve`
 
-        type(patch_ellipse_t) :: ellipse
-        type(kalker_coefficients_t) :: c
+        call fastsim_curved_solve(strips, fastsim_rolling_t(material, mu, creepage, nx, ny, &
+                                                            chosen(variant)), &
+                                  result, status, field, friction)
+    end subroutine fastsim_strips_solve
+
+    !> The same, or on a Hertz ellipse, with what rows of a curved surface give to its strips.
+    pure subroutine fastsim_curved_solve(strips, rolling, result, status, field, friction, &
+                                         per_strip, hertz)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution, laid
+        type(fastsim_rolling_t), intent(in) :: rolling !! how it rolls
+        type(tangential_result_t), intent(out) :: result !! as of `fastsim_strips_solve`
+        type(status_t), intent(out) :: status        !! as of `fastsim_strips_solve`
+        type(tangential_field_t), intent(inout), optional :: field !! as of `fastsim_strips_solve`
+        type(friction_t), intent(in), optional :: friction !! as of `fastsim_solve`
+        type(strip_forces_t), intent(inout), optional :: per_strip
+            !! on a curved surface shares of the rows' forces; needs capacity for the strips
+        type(hertz_t), intent(in), optional :: hertz !! the ellipse of all strips, in place of its
+                                                     !! patches'
+
+        type(ellipse_t) :: ellipse
         type(areas_t) :: areas
         integer :: first, last
 
         call check_strips(strips, status)
         if (is_error(status)) return
-        call check_input(mu, creepage, nx, ny, strips%n_patches, status, field)
+        call check_input(rolling%mu, rolling%creepage, rolling%nx, rolling%ny, strips%n_patches, &
+                         status, field)
         if (is_error(status)) return
-        call check_fall(nx, status, friction)
+        call check_fall(rolling%nx, status, friction)
         if (is_error(status)) return
-        call check_material(material, status)
+        call check_material(rolling%material, status)
         if (is_error(status)) return
+        if (present(per_strip) .and. strips%is_curved) &
+            call empty_strip_forces(per_strip, strips%n, status)
+        if (is_error(status)) return
+        ellipse%g = combined_shear_modulus(rolling%material)
+        ellipse%mu = rolling%mu
+        ellipse%nx = rolling%nx
+        ellipse%ny = rolling%ny
         last = 0
         do while (last < strips%n)
             first = last + 1
             last = patch_end(strips, first)
-            ellipse = patch_ellipse(strips, first, last)
+            if (present(hertz)) then
+                last = strips%n
+                ellipse%patch_ellipse_t = patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load)
+            else
+                ellipse%patch_ellipse_t = patch_ellipse(strips, first, last)
+            end if
             if (ellipse%load <= 0.0_wp) cycle
-            call kalker_coefficients(ellipse%a/ellipse%b, combined_poisson_ratio(material), c, &
-                                     status)
+            call kalker_coefficients(ellipse%a/ellipse%b, &
+                                     combined_poisson_ratio(rolling%material), ellipse%c, status)
             if (is_error(status)) then
                 result = tangential_result_t()
                 return
             end if
-            call add_ellipse(ellipse, c, combined_shear_modulus(material), mu, creepage, [nx, ny], &
-                             chosen(variant), result, areas, field, friction)
+            ellipse%first = first
+            ellipse%last = last
+            call add_ellipse(ellipse, rolling%creepage, rolling%variant, result, areas, field, &
+                             friction, strips, per_strip)
         end do
         result%stick_fraction = stick_share(areas%stuck, areas%covered)
-    end subroutine fastsim_strips_solve
+    end subroutine fastsim_curved_solve
 
     !> Refuse what no FASTSIM can work on, and empty the field.
     pure subroutine check_input(mu, creepage, nx, ny, ellipses, status, field)
@@ -274,40 +331,50 @@ contains
     end function chosen
 
     !> Add the forces of one ellipse.
-    pure subroutine add_ellipse(ellipse, c, g, mu, creepage, grid, variant, result, areas, field, &
-                                friction)
-        type(patch_ellipse_t), intent(in) :: ellipse !! where it is and what it carries
-        type(kalker_coefficients_t), intent(in) :: c !! of the ellipse
-        real(wp), intent(in) :: g                    !! combined shear modulus, MPa
-        real(wp), intent(in) :: mu                   !! coefficient of friction
+    pure subroutine add_ellipse(ellipse, creepage, variant, result, areas, field, friction, &
+                                strips, per_strip)
+        type(ellipse_t), intent(in) :: ellipse       !! where it is and what it carries
         type(creepage_t), intent(in) :: creepage     !! about y = 0
-        integer, intent(in) :: grid(2)               !! elements along, strips across
         type(fastsim_variant_t), intent(in) :: variant !! bound and flexibilities
         type(tangential_result_t), intent(inout) :: result !! forces, moment, power are added to
         type(areas_t), intent(inout) :: areas      !! added to
         type(tangential_field_t), intent(inout), optional :: field !! emptied beforehand
         type(friction_t), intent(in), optional :: friction !! checked
+        type(contact_strips_t), intent(in), optional :: strips !! under it, laid
+        type(strip_forces_t), intent(inout), optional :: per_strip
+            !! on a curved surface shares of the rows' forces are added to
 
+        type(creepage_t) :: motion, rest
         real(wp) :: a, b, y0, l1, l2, l3, peak_bound, pmax, width, y, row, h, x, t, bound
-        real(wp) :: size_squared, step, cksi, slope_x, slope_y, px, py, sx, sy, cell, place
+        real(wp) :: size_squared, step, cksi, ceta, cphi, slope_x, slope_y, px, py, sx, sy, cell
+        real(wp) :: place, g, mu
         real(wp) :: ahead_x, ahead_y, left, fall, gain, heat(most_along), row_bound
+        real(wp) :: before(2)
         integer :: nx, ny, i, j, state
-        logical :: is_falling, is_hot, varies
+        logical :: is_falling, is_hot, varies, is_curved
 
-        nx = grid(1)
-        ny = grid(2)
+        nx = ellipse%nx
+        ny = ellipse%ny
         a = ellipse%a
         b = ellipse%b
         y0 = ellipse%y
-        l1 = 8.0_wp*a/(3.0_wp*c%c11*g) ! Given: Kalker (1982)
-        l2 = 8.0_wp*a/(3.0_wp*c%c22*g) ! Given: Kalker (1982)
-        l3 = pi*a*sqrt(a/b)/(4.0_wp*c%c23*g)
+        g = ellipse%g
+        mu = ellipse%mu
+        associate (c => ellipse%c)
+            l1 = 8.0_wp*a/(3.0_wp*c%c11*g) ! Given: Kalker (1982)
+            l2 = 8.0_wp*a/(3.0_wp*c%c22*g) ! Given: Kalker (1982)
+            l3 = pi*a*sqrt(a/b)/(4.0_wp*c%c23*g)
+        end associate
         pmax = 1.5_wp*ellipse%load/(pi*a*b) ! Given: Hertz
         width = 2.0_wp*b/ny
+        motion = creepage
+        is_curved = .false.
+        if (present(strips)) is_curved = strips%is_curved
+        if (is_curved) motion = patch_motion(strips, ellipse%first, ellipse%last, creepage)
         ! Motion at the middle of the ellipse.
-        cksi = creepage%cksi - y0*creepage%cphi
+        cksi = motion%cksi - y0*motion%cphi
         if (variant%single_flexibility) then
-            l1 = weighted_flexibility(l1, l2, l3, cksi, creepage%ceta, sqrt(a*b)*creepage%cphi)
+            l1 = weighted_flexibility(l1, l2, l3, cksi, motion%ceta, sqrt(a*b)*motion%cphi)
             l2 = l1
             l3 = l1
         end if
@@ -326,7 +393,17 @@ contains
             row = a*sqrt(1.0_wp - t*t)
             h = 2.0_wp*row/nx
             cell = h*width
-            slope_x = cksi/l1 - y*creepage%cphi/l3
+            slope_x = cksi/l1 - y*motion%cphi/l3
+            ceta = motion%ceta
+            cphi = motion%cphi
+            if (is_curved) then
+                rest = rest_of_slip(slip_between(strips, ellipse%first, ellipse%last, y0 + y, &
+                                                 creepage), y0 + y, creepage, motion)
+                slope_x = slope_x + rest%cksi/l1
+                ceta = ceta + rest%ceta
+                cphi = cphi + rest%cphi
+                before = [result%fx, result%fy]
+            end if
             px = 0.0_wp
             py = 0.0_wp
             left = 1.0_wp
@@ -338,7 +415,7 @@ contains
                 x = row*real(nx - 2*j + 1, wp)/nx
                 ! Half a step from the edge to the middle of the first element.
                 step = merge(0.5_wp*h, h, j == 1)
-                slope_y = creepage%ceta/l2 + (x + 0.5_wp*step)*creepage%cphi/l3
+                slope_y = ceta/l2 + (x + 0.5_wp*step)*cphi/l3
                 px = px - step*slope_x
                 py = py - step*slope_y
                 place = max((1.0_wp - t*t) - (x/a)**2, 0.0_wp)
@@ -382,6 +459,9 @@ contains
                 if (present(field)) call add_element(field, x, y0 + y, [h, cell], &
                                                      pmax*sqrt(place), px, py, sx, sy, state)
             end do
+            if (is_curved .and. present(per_strip)) &
+                call add_between(strips, ellipse%first, ellipse%last, y0 + y, &
+                                 [result%fx, result%fy] - before, per_strip%fx, per_strip%fy)
         end do
     end subroutine add_ellipse
 

@@ -86,8 +86,7 @@
 module faststrip_tangential_faststrip
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_limits, only: nothing
-    use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_out_of_range, &
-                                     st_workspace_too_small
+    use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_out_of_range
     use faststrip_base_material, only: material_t, check_material, combined_poisson_ratio
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls, falls_when_hot
@@ -109,10 +108,11 @@ module faststrip_tangential_faststrip
     use faststrip_tangential_patch_shape, only: patch_shape_t, patch_shape
     use faststrip_tangential_pressure_slip, only: slip_by_pressure
     use faststrip_tangential_strip_march, only: rolling_t, march_sums_t, march_strips, strip_mu, &
-                                                strip_slip, &
                                                 most_hot_points
+    use faststrip_tangential_strip_slip, only: patch_motion
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
-                                          empty_field, field_power, most_points, stick_share
+                                          empty_strip_forces, empty_field, field_power, &
+                                          most_points, stick_share
     implicit none
     private
 
@@ -241,28 +241,6 @@ contains
         result%stick_fraction = stick_share(sums%stuck, sums%covered)
     end subroutine roll
 
-    !> Empty the sums of strips that are about to be filled, if they have the capacity.
-    pure subroutine empty_strip_forces(forces, n, status)
-        type(strip_forces_t), intent(inout) :: forces
-        integer, intent(in) :: n
-        type(status_t), intent(inout) :: status
-
-        integer :: capacity
-
-        capacity = 0
-        if (allocated(forces%fx)) capacity = size(forces%fx)
-        forces%n = 0
-        if (capacity < n) then
-            call set_status(status, st_workspace_too_small, &
-                            'too little capacity for the strips'' sums')
-            return
-        end if
-        forces%n = n
-        forces%fx(:n) = 0.0_wp
-        forces%fy(:n) = 0.0_wp
-        forces%friction_power(:n) = 0.0_wp
-    end subroutine empty_strip_forces
-
     !> Add the forces of all patches that roll with the tractions of the others; what the tractions
     !> are then.
     pure subroutine solve_patches(strips, material, rolling, friction, coupling, tractions, sums, &
@@ -329,33 +307,6 @@ contains
         end do
         call approach(found(:coupling%n), tractions(:coupling%n))
     end subroutine solve_patches
-
-    !> The motion of a patch on a curved surface, about the reference point: the mean by load of
-    !> its strips' own (S15).
-    pure type(creepage_t) function patch_motion(strips, first, last, plane) result(mean)
-        type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: first, last
-        type(creepage_t), intent(in) :: plane
-
-        type(creepage_t) :: own
-        real(wp) :: load, part, arm
-        integer :: k
-
-        load = 0.0_wp
-        arm = 0.0_wp
-        mean = creepage_t()
-        do k = first, last
-            part = load_of(strips, k)
-            own = strip_slip(strips, k, plane)
-            load = load + part
-            arm = arm + part*0.5_wp*(strips%y_left(k) + strips%y_right(k))
-            mean = creepage_t(mean%cksi + part*own%cksi, mean%ceta + part*own%ceta, &
-                              mean%cphi + part*own%cphi)
-        end do
-        load = max(load, nothing)
-        mean = creepage_t(plane%cksi + (mean%cksi + mean%cphi/load*arm)/load, &
-                          plane%ceta + mean%ceta/load, plane%cphi + mean%cphi/load)
-    end function patch_motion
 
     !> The static coefficient of a patch, the mean by load where it varies (S13).
     pure real(wp) function patch_mu(strips, first, last, rolling, friction) result(mu)

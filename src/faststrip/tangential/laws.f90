@@ -54,6 +54,7 @@ module faststrip_tangential_laws
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion, check_ellipse, over_force
+    use faststrip_tangential_strip_slip, only: curved_motion
     use faststrip_tangential_types, only: tangential_result_t
     implicit none
     private
@@ -69,7 +70,7 @@ module faststrip_tangential_laws
 contains
 
     !> Forces by a law on a Hertz ellipse.
-    pure subroutine law_solve(law, hertz, material, mu, creepage, result, status)
+    pure subroutine law_solve(law, hertz, material, mu, creepage, result, status, strips)
         integer, intent(in) :: law                   !! one of the three
         type(hertz_t), intent(in) :: hertz           !! the ellipse, centred at y = hertz%y
         type(material_t), intent(in) :: material     !! moduli in MPa
@@ -79,13 +80,19 @@ contains
         type(status_t), intent(out) :: status
             !! `st_bad_argument` (law, no ellipse, mu < 0), `st_not_finite`, `st_bad_material`,
             !! `st_out_of_range` (creepages, mu, a/b)
+        type(contact_strips_t), intent(in), optional :: strips
+            !! of the ellipse, laid: on a curved surface it rolls with their mean
+
+        type(creepage_t) :: motion
 
         call check_input(law, material, mu, creepage, status)
         if (is_error(status)) return
         call check_ellipse(hertz, status)
         if (is_error(status)) return
+        motion = creepage
+        if (present(strips)) motion = curved_motion(strips, 1, strips%n, creepage)
         call add_ellipse(law, patch_ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load), material, &
-                         mu, creepage, result, status)
+                         mu, motion, result, status)
         if (law == law_linear) result%stick_fraction = 1.0_wp
     end subroutine law_solve
 
@@ -110,8 +117,8 @@ contains
         do while (last < strips%n)
             first = last + 1
             last = patch_end(strips, first)
-            call add_ellipse(law, patch_ellipse(strips, first, last), material, mu, creepage, &
-                             result, status)
+            call add_ellipse(law, patch_ellipse(strips, first, last), material, mu, &
+                             curved_motion(strips, first, last, creepage), result, status)
             if (is_error(status)) then
                 result = tangential_result_t()
                 return

@@ -13,12 +13,13 @@ module faststrip_tangential_strip_march
     use faststrip_tangential_pressure_slip, only: find_pressure_slip, node_weights, bed_factor, &
                                                   n_nodes
     use faststrip_tangential_saturation, only: saturate
+    use faststrip_tangential_strip_slip, only: strip_slip, rest_of_slip
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           put_element, most_points, state_adhesion, state_slip
     implicit none
     private
 
-    public :: rolling_t, march_sums_t, march_strips, strip_mu, strip_slip, most_hot_points
+    public :: rolling_t, march_sums_t, march_strips, strip_mu, most_hot_points
 
     ! Tuned [1]. Origin: errors against CONTACT, see `faststrip_tangential_faststrip`.
     real(wp), parameter :: slip_onset = 2.0_wp      ! S4
@@ -384,7 +385,8 @@ contains
             do k = 1, block%n
                 if (rolling%plane_counts) then
                     if (strips%has_places) place = strips%x0(block%strip(k))
-                    own = own_slip(strips, block%strip(k), block%y(k), rolling)
+                    own = rest_of_slip(strip_slip(strips, block%strip(k), rolling%plane), &
+                                       block%y(k), rolling%plane, rolling%given)
                     creepage = creepage_t( &
                         rolling%creepage%cksi + own%cksi + block%y(k)*own%cphi, &
                         rolling%creepage%ceta + own%ceta, rolling%creepage%cphi + own%cphi)
@@ -456,7 +458,8 @@ contains
         do i = first, last
             associate (p0 => strips%p0(i), xd => strips%half_length(i), &
                        width => strips%y_right(i) - strips%y_left(i))
-                mu = strip_mu(strips, i, rolling%mu, friction)
+                mu = rolling%mu
+                if (friction%table%n > 0) mu = strip_mu(strips, i, mu, friction)
                 if (mu*strip_load(p0, xd, width) <= nothing) cycle
                 k = block%n + 1
                 block%n = k
@@ -516,7 +519,8 @@ contains
         integer :: k
 
         do k = 1, block%lanes
-            own = own_slip(strips, block%strip(min(k, block%n)), block%y(k), rolling)
+            own = rest_of_slip(strip_slip(strips, block%strip(min(k, block%n)), rolling%plane), &
+                               block%y(k), rolling%plane, rolling%given)
             ! (a/xd)^gamma_length
             stiffness = sqrt(sqrt(law%a/block%half_length(k)))
             stiffness = stiffness*sqrt(stiffness)
@@ -528,57 +532,6 @@ contains
             block%spin(k) = block%spin(k) + own%cphi
         end do
     end subroutine add_own_slip
-
-    !> What a strip has of slip, at its middle, and of spin beside its patch.
-    pure type(creepage_t) function own_slip(strips, k, y, rolling) result(own)
-        type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: k
-        real(wp), intent(in) :: y ! of its middle, mm
-        type(rolling_t), intent(in) :: rolling
-
-        own = strip_slip(strips, k, rolling%plane)
-        associate (given => rolling%given, plane => rolling%plane)
-            own%cksi = own%cksi - (given%cksi - plane%cksi) + y*(given%cphi - plane%cphi)
-            own%ceta = own%ceta - (given%ceta - plane%ceta)
-            own%cphi = own%cphi - (given%cphi - plane%cphi)
-        end associate
-    end function own_slip
-
-    !> What a strip on a curved surface has of slip, at its middle, and of spin beside the plane of
-    !> the contact (S15).
-    !>
-    !> The rail moves over the wheel with the creepages and the spin at the reference point, and
-    !> turns about y at `pitch`. At the depth z that adds `pitch z` along x. Of the lateral creepage
-    !> the part along a strip inclined by a is `ceta cos a`; of the turning the part along its
-    !> normal is its spin, `cphi cos a - pitch sin a`. Bodies of a wheelset that yaws touch where
-    !> they do not part, beside x = 0 by `-vy tan a/pitch`, vy the lateral velocity there, and
-    !> strips lie there: the slip has no part along the normal and is, along the strip,
-    !>
-    !>     ceta/(cos a + cphi/pitch sin a)
-    !>
-    !> In one plane spin adds `cphi x0` across at a place x0 ahead of the others.
-    pure type(creepage_t) function strip_slip(strips, k, plane) result(own)
-        type(contact_strips_t), intent(in) :: strips !! laid on a curved surface, or with places
-        integer, intent(in) :: k                     !! one of them
-        type(creepage_t), intent(in) :: plane        !! of the contact, about y = 0
-
-        real(wp) :: sine, cosine, lost
-
-        if (strips%has_places .and. .not. (strips%is_curved .and. strips%follow_outline)) &
-            own%ceta = plane%cphi*strips%x0(k)
-        if (.not. strips%is_curved) return
-        sine = sin(strips%inclination(k))
-        ! 1 - cos a
-        lost = 2.0_wp*sin(0.5_wp*strips%inclination(k))**2
-        own%cksi = strips%pitch*strips%depth(k)
-        own%cphi = -plane%cphi*lost - strips%pitch*sine
-        if (strips%follow_outline) then
-            cosine = cos(strips%inclination(k)) + plane%cphi/strips%pitch*sine
-            own%ceta = own%ceta + plane%ceta*((1.0_wp - cosine)/max(cosine, 0.25_wp))
-        else
-            own%ceta = own%ceta - plane%ceta*lost
-        end if
-    end function strip_slip
 
     !> Do pressures of dissimilar materials cause slip?
     pure logical function is_pressed(rolling)

@@ -6,7 +6,7 @@ module faststrip_tangential_types
     implicit none
     private
 
-    public :: strip_forces_t, reserve_strip_forces, copy_strip_forces
+    public :: strip_forces_t, reserve_strip_forces, empty_strip_forces, copy_strip_forces
     public :: tangential_result_t, tangential_field_t, reserve_field, empty_field, add_element, &
               put_element, field_power, stick_share
     public :: state_adhesion, state_slip, most_points
@@ -94,6 +94,28 @@ contains
             to%friction_power(:n) = from%friction_power(:n)
         end associate
     end subroutine copy_strip_forces
+
+    !> Empty the sums of strips that are about to be filled, if they have the capacity.
+    pure subroutine empty_strip_forces(forces, n, status)
+        type(strip_forces_t), intent(inout) :: forces !! reserved beforehand
+        integer, intent(in) :: n                      !! number of strips
+        type(status_t), intent(inout) :: status       !! changed by `st_workspace_too_small`
+
+        integer :: capacity
+
+        capacity = 0
+        if (allocated(forces%fx)) capacity = size(forces%fx)
+        forces%n = 0
+        if (capacity < n) then
+            call set_status(status, st_workspace_too_small, &
+                            'too little capacity for the strips'' sums')
+            return
+        end if
+        forces%n = n
+        forces%fx(:n) = 0.0_wp
+        forces%fy(:n) = 0.0_wp
+        forces%friction_power(:n) = 0.0_wp
+    end subroutine empty_strip_forces
 
     !> Allocate for a field; the only allocation, to be done before the first solution.
     subroutine reserve_field(field, capacity, status)

@@ -23,6 +23,9 @@
 !>   first three elements of a row. Pressures that NORM found on the same grid are those of a
 !>   lattice too, and f follows from the ratio of the first two (`lattice_edge`).
 !>
+!> **Curved surface.** Rows have slip of their own besides, that of their places; the influence
+!> stays that of the half-space.
+!>
 !> `scheme_first_order` has neither and takes the rigid slip at `x + dx/6`: CONTACT's numbers.
 !>
 !> **Dissimilar materials.** Pressures move points along the surface too (K of
@@ -131,7 +134,7 @@ contains
 
     !> Set a problem up: everything that does not change in the iteration.
     subroutine make_problem(problem, grid, material, creepage, is_rolling, scheme, edges, &
-                            most_elements, status, history)
+                            most_elements, status, history, own)
         type(problem_t), intent(inout) :: problem    !! ready; arrays of its last use serve again
         type(contact_grid_t), intent(in) :: grid     !! with finite pressures >= 0
         type(material_t), intent(in) :: material     !! checked, MPa
@@ -143,6 +146,8 @@ contains
         type(status_t), intent(out) :: status        !! `st_no_contact`, `st_out_of_range`,
                                                      !! `st_workspace_too_small`
         type(tang_history_t), intent(in), optional :: history !! checked; for a shift
+        type(creepage_t), intent(in), optional :: own(:) !! of each row of the grid, beside all
+
         integer :: first(2), last(2), corner(2), rim(2), i, j, n
         real(wp) :: floor
 
@@ -180,7 +185,7 @@ contains
         call reserve_arrays(problem)
         call make_kernels(problem, material, status)
         if (is_error(status)) return
-        call list_elements(problem, grid, creepage, floor, first, last, corner)
+        call list_elements(problem, grid, creepage, floor, first, last, corner, own)
         problem%pressed(:, :n) = 0.0_wp
         if (.not. are_alike(material)) call add_pressures(problem, history)
         if (present(history)) call take_off_tractions(problem, history)
@@ -191,13 +196,14 @@ contains
     end subroutine make_problem
 
     !> The elements in contact and their rigid slip.
-    pure subroutine list_elements(problem, grid, creepage, floor, first, last, corner)
+    pure subroutine list_elements(problem, grid, creepage, floor, first, last, corner, own)
         type(problem_t), intent(inout) :: problem
         type(contact_grid_t), intent(in) :: grid
         type(creepage_t), intent(in) :: creepage
         real(wp), intent(in) :: floor             ! pressure in contact is above
         integer, intent(in) :: first(2), last(2)  ! of the grid's elements in contact
         integer, intent(in) :: corner(2)          ! of those in the convolution
+        type(creepage_t), intent(in), optional :: own(:)
 
         integer :: i, j, n
         real(wp) :: lead
@@ -223,6 +229,10 @@ contains
                 if (i < last(1)) problem%is_leading(n) = grid%pressure(i + 1, j) <= floor
                 problem%rigid(1, n) = creepage%cksi - problem%y(n)*creepage%cphi
                 problem%rigid(2, n) = creepage%ceta + (problem%x(n) + lead)*creepage%cphi
+                if (.not. present(own)) cycle
+                problem%rigid(1, n) = problem%rigid(1, n) + own(j)%cksi
+                problem%rigid(2, n) = problem%rigid(2, n) &
+                                      + own(j)%ceta + (problem%x(n) + lead)*own(j)%cphi
             end do
         end do
         problem%row_start(problem%n_rows + 1) = n + 1

@@ -76,6 +76,9 @@ module faststrip_kalker_tangential
         integer :: max_steps = most_steps       !! of Newton's method for each of three attempts
         logical :: warm_start = .false. !! from the last solution, if it had as many elements
         integer :: most_elements = tang_most_elements !! in contact
+        type(creepage_t), allocatable :: own(:)
+            !! on a curved surface, in rolling: what each row of the grid has of slip, at its
+            !! middle, and of spin beside the creepage
     end type tang_options_t
 
     !> Everything a solution needs besides its input; owned by the caller, one per thread. Arrays
@@ -149,7 +152,7 @@ contains
         if (is_error(status)) return
         call make_problem(workspace%problem, grid, material, creepage, &
                           options%motion == motion_rolling, options%scheme, options%edges, &
-                          options%most_elements, status, history)
+                          options%most_elements, status, history, options%own)
         if (is_error(status)) return
         if (present(field)) then
             call empty_field(field, workspace%problem%n, status)
@@ -183,7 +186,8 @@ contains
         call add_up(workspace%newton, workspace%problem, result, field)
         if (options%motion == motion_rolling) result%friction_power = &
             max(-(result%fx*creepage%cksi + result%fy*creepage%ceta + result%mz*creepage%cphi) &
-                - power_on_pressed(workspace%newton, workspace%problem), 0.0_wp)
+                - power_on_pressed(workspace%newton, workspace%problem) &
+                - power_on_own(workspace%newton, workspace%problem, grid, options%own), 0.0_wp)
     end subroutine tang_solve
 
     !> Tractions under a bound that may fall with their slip.
@@ -398,6 +402,26 @@ contains
             power = power + problem%dx*problem%dy*dot_product(newton%p(:, i), slip)
         end do
     end function power_on_pressed
+
+    !> What tractions do on the slip that rows have of their own.
+    pure real(wp) function power_on_own(newton, problem, grid, own) result(power)
+        type(newton_t), intent(in) :: newton
+        type(problem_t), intent(in) :: problem
+        type(contact_grid_t), intent(in) :: grid
+        type(creepage_t), intent(in), optional :: own(:)
+
+        integer :: i, k(2)
+
+        power = 0.0_wp
+        if (.not. present(own)) return
+        do i = 1, problem%n
+            k = element_of(problem, grid, i)
+            associate (row => own(k(2)), p => newton%p(:, i))
+                power = power + problem%dx*problem%dy &
+                                *(p(1)*row%cksi + p(2)*(row%ceta + problem%x(i)*row%cphi))
+            end associate
+        end do
+    end function power_on_own
 
     !> Sums, and the field.
     pure subroutine add_up(newton, problem, result, field)

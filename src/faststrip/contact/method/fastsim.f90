@@ -3,13 +3,13 @@
 module faststrip_contact_method_fastsim
     use faststrip_base_friction, only: softened
     use faststrip_base_kinds, only: wp
-    use faststrip_base_material, only: material_t
     use faststrip_base_status, only: status_t
-    use faststrip_tangential_fastsim, only: fastsim_solve, fastsim_strips_solve, fastsim_variant_t
+    use faststrip_tangential_fastsim, only: fastsim_curved_solve, fastsim_rolling_t, &
+                                            fastsim_variant_t
     use faststrip_tangential_force_errors, only: errors_of_fastsim
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
-    use faststrip_contact_method_asked, only: asked_field
+    use faststrip_contact_method_asked, only: asked_field, asked_strip_forces
     use faststrip_contact_method_march_errors, only: left_out_t, estimate_march
     use faststrip_contact_methods, only: tangential_table, tangential_fastsim, &
                                          tangential_fastsim_elliptic, tangential_fastsim_weighted
@@ -33,15 +33,17 @@ module faststrip_contact_method_fastsim
     end type kalkers_fastsim_t
 
     type(kalkers_fastsim_t), target, save :: fastsim_method = kalkers_fastsim_t( &
-        about=tangential_table(findloc(tangential_table%number, tangential_fastsim, dim=1)))
+        about=tangential_table(findloc(tangential_table%number, tangential_fastsim, dim=1)), &
+        gives_strip_forces=.false.)
         !! FASTSIM
     type(fastsim_method_t), target, save :: elliptic_fastsim_method = fastsim_method_t( &
         about=tangential_table(findloc(tangential_table%number, tangential_fastsim_elliptic, &
-                                       dim=1)), elliptic_bound=.true.)
+                                       dim=1)), gives_strip_forces=.false., elliptic_bound=.true.)
         !! FASTSIM with the elliptic traction bound
     type(fastsim_method_t), target, save :: weighted_fastsim_method = fastsim_method_t( &
         about=tangential_table(findloc(tangential_table%number, tangential_fastsim_weighted, &
-                                       dim=1)), single_flexibility=.true.)
+                                       dim=1)), gives_strip_forces=.false., &
+        single_flexibility=.true.)
         !! FASTSIM with a single flexibility
 
 contains
@@ -52,26 +54,23 @@ contains
         type(workspace_t), intent(inout), target :: workspace  !! with a normal solution
         type(contact_case_t), intent(in) :: case               !! what to solve
         type(contact_result_t), intent(inout) :: result        !! gets the forces
-        type(status_t), intent(out) :: status                  !! of `fastsim_solve`
+        type(status_t), intent(out) :: status                  !! of `fastsim_curved_solve`
 
-        type(fastsim_variant_t) :: variant
-        type(material_t) :: material
+        type(fastsim_rolling_t) :: rolling
 
-        variant%elliptic_bound = self%elliptic_bound
-        variant%single_flexibility = self%single_flexibility
-        material = softened(case%material, workspace%friction)
-        associate (nx => case%methods%fastsim_nx, ny => case%methods%fastsim_ny)
-            if (workspace%is_ellipse) then
-                call fastsim_solve(workspace%hertz, material, workspace%mu, case%creepage, nx, ny, &
-                                   result%tangential, status, asked_field(workspace, case), &
-                                   variant, workspace%friction)
-            else
-                call fastsim_strips_solve(workspace%strips, material, workspace%mu, &
-                                          case%creepage, nx, ny, result%tangential, status, &
-                                          asked_field(workspace, case), variant, &
-                                          workspace%friction)
-            end if
-        end associate
+        rolling = fastsim_rolling_t(softened(case%material, workspace%friction), workspace%mu, &
+                                    case%creepage, case%methods%fastsim_nx, &
+                                    case%methods%fastsim_ny, fastsim_variant_t( &
+                                    self%elliptic_bound, self%single_flexibility))
+        if (workspace%is_ellipse) then
+            call fastsim_curved_solve(workspace%strips, rolling, result%tangential, status, &
+                                      asked_field(workspace, case), workspace%friction, &
+                                      asked_strip_forces(workspace, case), workspace%hertz)
+        else
+            call fastsim_curved_solve(workspace%strips, rolling, result%tangential, status, &
+                                      asked_field(workspace, case), workspace%friction, &
+                                      asked_strip_forces(workspace, case))
+        end if
     end subroutine solve_by_fastsim
 
     !> Error estimates of its forces.

@@ -71,7 +71,8 @@ contains
 
         if (workspace%is_ellipse) then
             call law_solve(self%law, workspace%hertz, softened(case%material, workspace%friction), &
-                           workspace%mu, case%creepage, result%tangential, status)
+                           workspace%mu, case%creepage, result%tangential, status, &
+                           workspace%strips)
         else
             call law_strips_solve(self%law, workspace%strips, &
                                   softened(case%material, workspace%friction), workspace%mu, &

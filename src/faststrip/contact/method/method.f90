@@ -170,6 +170,8 @@ module faststrip_contact_method
         type(method_t) :: about !! number, name, needs, help, what it gives and takes
         logical :: cuts_creepages = .true.
             !! are creepages beyond what methods take (`cut_creepage`) cut before it sees them?
+        logical :: gives_strip_forces = .true.
+            !! are forces of strips its own? Else they serve to turn a curved surface's alone
     contains
         !> Forces on the workspace's strips, or on its ellipse.
         procedure(solve_tangential_i), deferred :: solve

@@ -21,11 +21,12 @@ module faststrip_contact_method_surface
     use faststrip_normal_strips, only: contact_strips_t, strip_load, strips_load
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_methods, only: tangential_faststrip, tangential_faststrip_plain
+    use faststrip_tangential_types, only: strip_forces_t
     implicit none
     private
 
-    public :: check_surface, lay_strips, flatten_load, turn_forces
-    public :: add_pressure_errors, shift_pressure_errors, add_turn_errors
+    public :: check_surface, lay_strips, flatten_load, turn_forces, find_lean, lateral_share
+    public :: conformal_turn, add_pressure_errors, shift_pressure_errors, add_turn_errors
 
     ! What a half-space leaves out of a contact that turns by 2 theta, over theta^2; `conformal`
     ! begins at theta = 0.17.
@@ -114,15 +115,14 @@ contains
 
     !> Add what a half-space leaves out of a contact whose surfaces turn so far that it is
     !> `conformal` to the estimated errors of its pressures.
-    pure subroutine add_pressure_errors(workspace, case, result, status)
-        type(workspace_t), intent(in) :: workspace      !! with the solution
+    pure subroutine add_pressure_errors(turn, case, result, status)
+        real(wp), intent(in) :: turn                    !! of `conformal_turn`, rad
         type(contact_case_t), intent(in) :: case        !! that was solved
         type(contact_result_t), intent(inout) :: result !! gets the errors, if it has some
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
-        if (is_error(status) .or. .not. result%is_estimated) return
-        if (.not. conformal_turn(workspace) > 0.0_wp) return
-        call shift_pressure_errors(workspace, 1.0_wp, result)
+        if (is_error(status) .or. .not. turn > 0.0_wp) return
+        call shift_pressure_errors(turn**2, result)
         associate (errors => result%normal_errors)
             if (.not. btest(status%limitations, st_under_resolved)) &
                 call name_resolution(errors%est_err_penetration, errors%est_err_pmax, &
@@ -130,41 +130,36 @@ contains
         end associate
     end subroutine add_pressure_errors
 
-    !> Add it, or with -1 take it away, for estimates of forces that know nothing of it.
-    pure subroutine shift_pressure_errors(workspace, times, result)
-        type(workspace_t), intent(in) :: workspace      !! with the solution
-        real(wp), intent(in) :: times                   !! how often
-        type(contact_result_t), intent(inout) :: result !! its errors are shifted, if it has some
+    !> Add it, or the negative to take it away, for estimates of forces that know nothing of it.
+    pure subroutine shift_pressure_errors(squared, result)
+        real(wp), intent(in) :: squared                 !! of `conformal_turn`, squared
+        type(contact_result_t), intent(inout) :: result !! its errors are shifted
 
-        real(wp) :: turn
-
-        if (.not. result%is_estimated) return
-        turn = times*conformal_turn(workspace)**2
         associate (errors => result%normal_errors)
-            errors%est_err_penetration = errors%est_err_penetration + lost_of_penetration*turn
-            errors%est_err_pmax = errors%est_err_pmax + lost_of_pmax*turn
-            errors%est_err_area = errors%est_err_area + lost_of_area*turn
+            errors%est_err_penetration = errors%est_err_penetration + lost_of_penetration*squared
+            errors%est_err_pmax = errors%est_err_pmax + lost_of_pmax*squared
+            errors%est_err_area = errors%est_err_area + lost_of_area*squared
         end associate
     end subroutine shift_pressure_errors
 
-    !> The same of the forces: in the plane also what turning its pressures would change, and where
-    !> strips do not have their own slip, what that would.
-    pure subroutine add_turn_errors(workspace, case, result, status)
+    !> The same of the forces: in the plane also what turning its pressures and the strips' own slip
+    !> would change.
+    pure subroutine add_turn_errors(workspace, turn, case, result, status)
         type(workspace_t), intent(in) :: workspace      !! with the solution
+        real(wp), intent(in) :: turn                    !! of `conformal_turn`, rad
         type(contact_case_t), intent(in) :: case        !! that was solved
         type(contact_result_t), intent(inout) :: result !! gets the errors, if it has some
         type(status_t), intent(inout) :: status         !! limitations so far; `st_under_resolved`
 
-        real(wp) :: turn, lean, depth, bound, slip, added(2)
+        real(wp) :: lean, depth, bound, slip, added(2)
 
-        if (is_error(status) .or. .not. result%forces_are_estimated) return
-        turn = conformal_turn(workspace)
+        if (is_error(status) .or. .not. (turn > 0.0_wp .and. result%forces_are_estimated)) return
         bound = workspace%mu*result%normal%load
-        if (.not. (turn > 0.0_wp .and. bound > 0.0_wp)) return
+        if (.not. bound > 0.0_wp) return
         call find_means(workspace%solver%curve, workspace%strips, lean, depth)
         added = lost_of_forces*turn**2
-        if (.not. case%curved) added(2) = added(2) + abs(lean)*result%normal%load/bound
-        if (.not. (case%curved .and. has_own_slip(case%methods%tangential))) then
+        if (.not. case%curved) then
+            added(2) = added(2) + abs(lean)*result%normal%load/bound
             ! A little more slip, along x by the depth and across by the spin: what it adds to a
             ! force that does not slide, or turns of one that does.
             associate (c => sqrt(result%normal%area/pi), creepage => result%creepage, &
@@ -184,13 +179,13 @@ contains
         end associate
     end subroutine add_turn_errors
 
-    !> Has each strip its own slip (S15)?
-    pure logical function has_own_slip(tangential)
+    !> Do the forces of a method act at the strips' places along x?
+    pure logical function acts_at_places(tangential)
         integer, intent(in) :: tangential !! number of the method
 
-        has_own_slip = tangential == tangential_faststrip .or. &
-                       tangential == tangential_faststrip_plain
-    end function has_own_slip
+        acts_at_places = tangential == tangential_faststrip .or. &
+                         tangential == tangential_faststrip_plain
+    end function acts_at_places
 
     !> Means by load of the sine of the strips' inclination and of their depth, mm.
     pure subroutine find_means(curve, strips, lean, depth)
@@ -217,13 +212,18 @@ contains
         depth = depth/load
     end subroutine find_means
 
-    !> Half of what the surfaces turn by, if that makes the contact `conformal`, rad; else zero.
-    pure real(wp) function conformal_turn(workspace) result(turn)
-        type(workspace_t), intent(in) :: workspace
+    !> Half of what the surfaces turn by, if that makes the contact `conformal` and errors are
+    !> estimated, rad; else zero.
+    pure real(wp) function conformal_turn(workspace, result) result(turn)
+        type(workspace_t), intent(in) :: workspace   !! with the solution
+        type(contact_result_t), intent(in) :: result !! its figures
 
         turn = 0.0_wp
-        if (workspace%solver%curve%n == 0) return
-        turn = turn_of_contact(workspace%solver%curve, workspace%strips)
+        if (.not. result%is_estimated) return
+        associate (curve => workspace%solver%curve)
+            if (curve%n == 0 .or. .not. curve%inclination_is_known) return
+            turn = turn_of_contact(curve, workspace%strips)
+        end associate
         turn = merge(0.5_wp*turn, 0.0_wp, turn > doubtful_inclination)
     end function conformal_turn
 
@@ -234,6 +234,47 @@ contains
         if (result%is_curved) result%normal%load = result%along_load
         result%is_curved = .false.
     end subroutine flatten_load
+
+    !> Of pressures in the frame of the contact the lateral force, and the mean cosine of their
+    !> inclination by load. Of a plane none and one.
+    pure subroutine find_lean(strips, load, lateral, cosine)
+        type(contact_strips_t), intent(in) :: strips !! laid
+        real(wp), intent(in) :: load                 !! along their own normals, N
+        real(wp), intent(out) :: lateral             !! N
+        real(wp), intent(out) :: cosine              !! 1 at most
+
+        real(wp) :: share, all
+        integer :: k
+
+        lateral = 0.0_wp
+        cosine = 1.0_wp
+        all = strips_load(strips)
+        if (.not. strips%is_curved .or. .not. all > 0.0_wp) return
+        do k = 1, strips%n
+            share = strip_load(strips%p0(k), strips%half_length(k), &
+                               strips%y_right(k) - strips%y_left(k))/all
+            lateral = lateral - share*load*sin(strips%inclination(k))
+            cosine = cosine - share*2.0_wp*sin(0.5_wp*strips%inclination(k))**2
+        end do
+    end subroutine find_lean
+
+    !> Of tractions the lateral force in the frame of the contact over the cosine of `find_lean`,
+    !> that of a force shared by load along the surface, N.
+    pure real(wp) function lateral_share(strips, forces, fy, cosine) result(lateral)
+        type(contact_strips_t), intent(in) :: strips !! laid
+        type(strip_forces_t), intent(in) :: forces   !! of the strips, or none
+        real(wp), intent(in) :: fy                   !! along the surface, N
+        real(wp), intent(in) :: cosine               !! of `find_lean`
+
+        integer :: k
+
+        lateral = fy
+        if (.not. strips%is_curved .or. forces%n /= strips%n) return
+        do k = 1, strips%n
+            lateral = lateral - forces%fy(k)*2.0_wp*sin(0.5_wp*strips%inclination(k))**2
+        end do
+        lateral = lateral/cosine
+    end function lateral_share
 
     !> The moment of a result's pressures about its reference point; on a curved surface make load,
     !> forces and moment those of the surface, in the frame of the contact. Forces of methods that
@@ -260,7 +301,7 @@ contains
             end do
             result%moment = normal%load*[centre(2), -centre(1)]
             ! Forces that know nothing of places have the arm of the pressures.
-            if (strips%has_places .and. .not. has_own_slip(workspace%methods%tangential)) &
+            if (strips%has_places .and. .not. acts_at_places(workspace%methods%tangential)) &
                 tangential%mz = tangential%mz + centre(1)*tangential%fy
             if (.not. strips%is_curved) return
             result%is_curved = .true.

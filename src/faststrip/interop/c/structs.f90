@@ -67,6 +67,9 @@ module faststrip_interop_c_structs
                           est_err_ceta = 0
         integer(c_int) :: n_steps = 0, best_step = 0, target_is_known = 0, target_is_met = 0
         real(c_double) :: est_err_target = 0
+        integer(c_int) :: temperatures_are_known = 0
+        real(c_double) :: flash_temperature = 0, temperature_max = 0, temperature_x = 0, &
+                          temperature_y = 0
     end type c_result_t
 
 contains
@@ -298,6 +301,14 @@ contains
             fields%target_is_known = merge(1, 0, steps%estimate < unknown_error)
             fields%target_is_met = merge(1, 0, steps%is_met)
             if (steps%estimate < unknown_error) fields%est_err_target = steps%estimate
+        end associate
+        if (.not. handle%result%knows_temperatures) return
+        fields%temperatures_are_known = 1
+        associate (flash => handle%result%flash)
+            fields%flash_temperature = flash%rise
+            fields%temperature_max = flash%temperature
+            fields%temperature_x = flash%x
+            fields%temperature_y = flash%y
         end associate
     end subroutine fill_result
 end module faststrip_interop_c_structs
