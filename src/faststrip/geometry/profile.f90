@@ -1,8 +1,8 @@
 !> Wheel and rail profiles of every kind behind one interface.
 !>
 !> The frame is that of a right wheel and a right rail: y to the field side, z down. A wheel has
-!> y = 0 at its mean tread line; a rail is inclined already, with the origin at its highest point
-!> (points: where their author put it).
+!> y = 0 at its nominal rolling circle; a rail is inclined already, with the origin at its highest
+!> point (points: where their author put it).
 !>
 !> The rail inclination is the tangent of the angle by which the rail leans to the track's centre,
 !> 0.025 for 1:40. A rail by name stands upright in its drawing: it is inclined by

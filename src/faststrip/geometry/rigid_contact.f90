@@ -12,7 +12,7 @@ module faststrip_geometry_rigid_contact
     use faststrip_geometry_contact_scan, only: placing_t, wheel_level, find_lowest_dip, &
                                                find_lowest_sample, sample_place, sample_step, &
                                                scan_step, stretch, slack
-    use faststrip_geometry_gauge_fit, only: check_fit, check_tape_circles
+    use faststrip_geometry_gauge_fit, only: check_fit, check_rolling_circles
     use faststrip_geometry_profile, only: profile_t, profile_at, profile_bounds
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_contact, st_out_of_range
@@ -28,9 +28,9 @@ module faststrip_geometry_rigid_contact
         ! Given: dimensions of standard gauge.
         real(wp) :: back_spacing = 1360.0_wp !! distance of the two flange backs, mm
         ! Given: dimensions of the wheelset.
-        real(wp) :: tread_line = 70.0_wp     !! flange back to mean tread line (y = 0), mm
+        real(wp) :: tread_line = 70.0_wp     !! flange back to nominal rolling circle (y = 0), mm
         ! Given: dimensions of the reference's wheelset.
-        real(wp) :: radius = 460.0_wp        !! rolling radius r0 at the mean tread line, mm
+        real(wp) :: radius = 460.0_wp        !! nominal radius r0, mm
     end type wheelset_t
 
     !> The track; both rails carry the same profile.
@@ -123,7 +123,8 @@ contains
 
         call clear_status(status)
         call check_length('distance of the flange backs', wheelset%back_spacing, status)
-        call check_length('distance of flange back and tread line', wheelset%tread_line, status)
+        call check_length('distance of flange back and nominal rolling circle', &
+                          wheelset%tread_line, status)
         call check_length('rolling radius', wheelset%radius, status)
         call check_length('gauge', track%gauge, status)
         call check_length('depth of the gauge below the crown', track%gauge_depth, status)
@@ -219,7 +220,7 @@ contains
             if (is_error(status)) then
                 call clear_status(status)
             else
-                call check_tape_circles(wheelset%back_spacing, wheelset%tread_line, &
+                call check_rolling_circles(wheelset%back_spacing, wheelset%tread_line, &
                                         track%rail_distance + 2.0_wp*y_gauge, status)
             end if
         else if (.not. is_error(status)) then

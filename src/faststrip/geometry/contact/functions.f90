@@ -21,10 +21,10 @@ module faststrip_geometry_contact_functions
 
     !> A wheel and the rail below it, in the frame of the right side.
     type :: side_t
-        type(profile_t) :: wheel            !! y = 0 at the mean tread line
+        type(profile_t) :: wheel            !! y = 0 at the nominal rolling circle
         type(profile_t) :: rail             !! inclined
         ! Given: dimensions of the reference's wheelset.
-        real(wp) :: radius = 460.0_wp       !! rolling radius at the mean tread line, mm
+        real(wp) :: radius = 460.0_wp       !! nominal radius, mm
     end type side_t
 
     !> A shifted wheelset.

@@ -1,8 +1,8 @@
 !> The S1002 wheel profile of EN 13715 and UIC 510-2 (flange height 28, flange thickness 32.5,
 !> tread 6.7 %), in its eight sections.
 !>
-!> `s` runs from the flange (negative) to the field side (positive) and is 0 at the mean tread
-!> line, 70 mm from the wheel back; `f(s)` points down, to the flange tip. The printed
+!> `s` runs from the flange (negative) to the field side (positive) and is 0 at the nominal
+!> rolling circle, 70 mm from the wheel back; `f(s)` points down, to the flange tip. The printed
 !> coefficients are used as they are: f jumps by -3.7e-5 mm at s = -26 and by +1.2e-4 mm at
 !> s = -35.
 module faststrip_geometry_wheel_s1002
