@@ -569,7 +569,7 @@ typedef struct faststrip_rail_state {
 typedef struct faststrip_wheelset_state {
     double y;          /* lateral displacement, mm */
     double z;          /* vertical displacement of the centre, down, mm; where it is prescribed. 0
-                        * where the tread lines are as high as the crowns of the rails, which is
+                        * where the rolling circles are as high as the crowns of the rails, which is
                         * not where the wheelset rests: FASTSTRIP_AT_REST gives that */
     double roll;       /* right wheel down, rad; where it is not free */
     double yaw;        /* nose to the right, rad */

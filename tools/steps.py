@@ -56,7 +56,7 @@
   fmu [FILE...] make the functional mock-up units of a wheelset, FMI 2.0 and 3.0, for other
                 simulators, with these profile files in them; in out/fmu/
   package       make the Python package for pip, with the library in it, its source distribution,
-                and recipes for conda and Spack; in out/package/
+                and recipes for conda, Spack and Debian; in out/package/
   release [--check]
                 check versions, documents and stored results, then make the Python package, its
                 source distribution and the sources with the site; in out/release/

@@ -536,8 +536,8 @@ thermal
         y : float
             To the right, mm.
         z : float
-            Height of the wheelset's centre, down, mm; 0 where the tread lines are as high as the
-            crowns, which is not where it rests: ``at_rest`` gives that.
+            Height of the wheelset's centre, down, mm; 0 where the rolling circles are as high as
+            the crowns, which is not where it rests: ``at_rest`` gives that.
         roll : float
             Right wheel down, rad. Not given it is found, of both wheels and their loads; else it
             is 0.

@@ -207,8 +207,38 @@ class Widths(InBrowser):
         self.field("shift", "\u22122")
         self.wait(lambda: self.model("shift", "value") == -2, "a true minus sign is taken")
         self.assertFalse(self.model("shift_refused", "visible"))
+        for text in ("50", "3000", "-400"):
+            self.field("roller_radius", text)
+            self.wait(lambda text=text: self.model("roller_radius_refused", "visible")
+                      and self.model("roller_radius_refused", "text")
+                      == f"must be 0 or a number from 100 to 2500, got {text}", text)
+        self.assertEqual(self.model("roller_radius", "value"), 0)
         self.assertEqual(self.element("shift", ".noUi-handle").get_attribute("aria-label"),
                          "lateral displacement y, mm")
+
+    def test_rollers_and_a_plane_for_each_strip(self):
+        self.field("shift", "6")
+        self.wait(lambda: self.model("shift", "value") == 6, "the wheel is displaced")
+        for change, what in ((lambda: self.field("roller_radius", "500"), "a roller"),
+                             (lambda: self.element("planes", ".bk-btn:nth-child(2)").click(),
+                              "a plane for each strip"),
+                             (lambda: self.element("planes", ".bk-btn:nth-child(1)").click(),
+                              "one plane"),
+                             (lambda: self.field("roller_radius", "0"), "a rail")):
+            before = self.words("contact_numbers")
+            change()
+            self.wait(lambda before=before: self.words("contact_numbers") != before, what)
+        # What only the library knows is said at the field, too.
+        self.turn(1)
+        self.field("curvature", "2")
+        self.field("roller_radius", "500")
+        self.wait(lambda: "on rollers must be 0" in self.words("curvature_told"), "refused")
+        self.assertEqual(self.words("roller_radius_told"), "")
+        self.field("curvature", "0")
+        self.wait(lambda: self.words("curvature_told") == "" and "Y/Q" in
+                  self.words("wheelset_numbers"), "a wheelset on rollers")
+        self.field("roller_radius", "0")
+        self.turn(0)
 
     def test_a_wheelset_by_keyboard(self):
         from selenium.webdriver.common.action_chains import ActionChains
@@ -228,7 +258,8 @@ class Widths(InBrowser):
             order.append(self.focused()[0])
         wanted = ["shift_number", "yaw", "yaw_number", "load", "load_number", "transfer",
                   "transfer_number", "curvature", "curvature_number", "mu", "mu_number",
-                  "yield_shear", "yield_shear_number", "smoothing", "smoothing_number", "svg"]
+                  "yield_shear", "yield_shear_number", "roller_radius", "roller_radius_number",
+                  "smoothing", "smoothing_number", "svg"]
         self.assertEqual([one for one in order if one in wanted], wanted)
         self.element("load_direction", ".bk-btn:nth-child(2)").click()
         self.wait(lambda: "vertical load" in self.status(), "a normal force is refused")

@@ -1,7 +1,7 @@
 """The Python package as pip gets it: built from its source distribution, with the library in it,
 installed where there is no compiler."""
 
-import email
+import email.utils
 import hashlib
 import importlib
 import os
@@ -208,15 +208,47 @@ class Package(unittest.TestCase):
         url = eval(place, {"pathlib": pathlib, "__file__": str(path)})
         self.assertEqual(url, f"file://{self.source.resolve()}")
 
+    def test_debian_makes_three_packages_of_that_source_distribution(self):
+        folder = self.folder / "debian"
+        texts = {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8")
+                 for path in folder.rglob("*") if path.is_file()}
+        packages = re.findall(r"^Package: (\S+)$", texts["control"], re.MULTILINE)
+        self.assertEqual(packages, ["libfaststrip0", "libfaststrip-dev", "python3-faststrip"])
+        self.assertEqual(set(texts), {
+            "changelog", "control", "copyright", "not-installed", "rules", "source/format",
+            *(f"{name}.install" for name in packages)})
+        self.assertNotRegex("".join(texts.values()), r"@[A-Z]+\d*@")
+        self.assertTrue(os.access(folder / "rules", os.X_OK))
+        self.assertTrue(texts["changelog"].startswith(f"faststrip ({self.version}-1) unstable;"))
+        email.utils.parsedate_to_datetime(texts["changelog"].strip().rpartition(">  ")[2])
+        with open(ROOT / "pyproject.toml", "rb") as file:
+            cmake = tomllib.load(file)["tool"]["scikit-build"]["cmake"]["version"]
+        self.assertIn(f"cmake ({cmake.replace('>=', '>= ')})", texts["control"])
+        source, target = texts["python3-faststrip.install"].split()
+        with tarfile.open(self.source) as archive:
+            self.assertIn(f"{self.source.name[:-len('.tar.gz')]}/{source}/__init__.py",
+                          archive.getnames())
+        self.assertEqual(target, "usr/lib/python3/dist-packages")
+
     def test_cmake_finds_all_it_needs_in_the_source_distribution(self):
         with tempfile.TemporaryDirectory() as folder:
             with tarfile.open(self.source) as archive:
                 archive.extractall(folder, filter="data")
             self.command("cmake", "-S", pathlib.Path(folder, self.source.name[:-len(".tar.gz")]),
-                         "-B", f"{folder}/build", "-DFASTSTRIP_OWN_LAPACK=ON")
+                         "-B", f"{folder}/build", "-DFASTSTRIP_OWN_LAPACK=ON",
+                         "-DCMAKE_INSTALL_LIBDIR=lib/any")
             rules = pathlib.Path(folder, "build", "cmake_install.cmake").read_text(encoding="utf-8")
             for path in re.findall(rf'"({re.escape(folder)}/faststrip-[^"]+)"', rules):
                 self.assertTrue(pathlib.Path(path).exists(), path)
+        # Each folder that it installs into goes into one of Debian's packages, or is named there.
+        taken = [line.replace("usr/lib/*", "lib/any").removeprefix("usr/")
+                 for name in ("libfaststrip0.install", "libfaststrip-dev.install", "not-installed")
+                 for line in (self.folder / "debian" / name).read_text("utf-8").splitlines()]
+        folders = set(re.findall(r'DESTINATION "\${CMAKE_INSTALL_PREFIX}/([^"]+)"', rules))
+        self.assertIn("lib/any", folders)
+        for each in sorted(folders):
+            self.assertTrue(any(f"{each}/".startswith(f"{one}/") or one.startswith(f"{each}/")
+                                for one in taken), each)
 
     def test_only_what_is_needed_is_imported(self):
         modules = self.command(self.python, "-c", MODULES).split()

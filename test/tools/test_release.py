@@ -151,7 +151,8 @@ class Release(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder / "out", ignore_errors=True)
         for name in ("docs/index.html", f"package/faststrip-{self.version}.tar.gz",
                      f"package/faststrip-{self.version}-py3-none-any.whl",
-                     "package/conda/recipe.yaml", "package/spack/packages/package.py"):
+                     "package/conda/recipe.yaml", "package/spack/packages/package.py",
+                     "package/debian/control"):
             self.write(f"out/{name}", name)
 
     def test_what_is_made(self):
@@ -165,13 +166,14 @@ class Release(unittest.TestCase):
             self.assertIn("what remains, for a person:", done.stdout)
             self.assertEqual({path.name for path in made.rglob("*") if path.is_file()},
                              {"SHA256SUMS", name, f"faststrip-{self.version}-py3-none-any.whl",
-                              f"faststrip-{self.version}.tar.gz", "recipe.yaml", "package.py"})
+                              f"faststrip-{self.version}.tar.gz", "recipe.yaml", "package.py",
+                              "control"})
             sums.append((made / "SHA256SUMS").read_text(encoding="utf-8"))
         self.assertEqual(*sums)
         for line in sums[0].splitlines():
             digest, file = line.split("  ")
             self.assertEqual(hashlib.sha256((made / file).read_bytes()).hexdigest(), digest)
-        self.assertEqual(len(sums[0].splitlines()), 5)
+        self.assertEqual(len(sums[0].splitlines()), 6)
         with tarfile.open(made / name) as archive:
             members = {member.name: member for member in archive}
             top = f"faststrip-{self.version}/"

@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
 """Make the source distribution of the Python package, its wheel from that, one for other machines,
-with the run-time libraries of Fortran in it, and recipes for conda and Spack.
+with the run-time libraries of Fortran in it, and recipes for conda, Spack and Debian.
 
     package.py --folder FOLDER [--fast]
 
 FOLDER then holds faststrip-N.tar.gz, the wheel for machines whose C library is not older than this
-one's, and in conda/ and spack/ the recipes of tools/packaging, which build from that very
+one's, and in conda/, spack/ and debian/ the recipes of tools/packaging, which build from that very
 faststrip-N.tar.gz. --fast: without optimization, for tests.
 """
 
 import argparse
+import datetime
+import email.utils
 import hashlib
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -52,20 +55,30 @@ def make(folder, fast):
     return the_one(folder, "*.tar.gz"), plain, the_one(folder / "repaired", "*.whl")
 
 
+def released():
+    """The day of the release, as Debian's changelog has it."""
+    text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    day = datetime.date.fromisoformat(re.search(r"^date-released: (\S+)", text, re.MULTILINE)[1])
+    return email.utils.format_datetime(datetime.datetime.combine(
+        day, datetime.time(), datetime.UTC))
+
+
 def write_recipes(folder, source):
     """The recipes, for this source distribution."""
     filled = {"@VERSION@": source.name.removeprefix("faststrip-").removesuffix(".tar.gz"),
-              "@SHA256@": hashlib.sha256(source.read_bytes()).hexdigest()}
+              "@SHA256@": hashlib.sha256(source.read_bytes()).hexdigest(),
+              "@DATE@": released()}
     for kind in RECIPES.iterdir():
         shutil.rmtree(folder / kind.name, ignore_errors=True)
-    for path in RECIPES.rglob("*.*"):
-        if path.suffix in (".py", ".yaml"):
+    for path in RECIPES.rglob("*"):
+        if path.is_file() and path.suffix != ".pyc":
             text = path.read_text(encoding="utf-8")
             for mark, value in filled.items():
                 text = text.replace(mark, value)
             target = folder / path.relative_to(RECIPES)
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text, encoding="utf-8")
+            shutil.copymode(path, target)
 
 
 def main():

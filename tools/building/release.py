@@ -198,7 +198,7 @@ def make(version):
         shutil.copy(found[0], FOLDER)
     if not (SITE / "index.html").is_file():
         sys.exit("release: the site must be in out/docs, there is no index.html")
-    for kind in ("conda", "spack"):
+    for kind in ("conda", "spack", "debian"):
         shutil.copytree(PACKAGE / kind, FOLDER / kind)
     source_archive(FOLDER / f"faststrip-{version}-source.tar.gz", f"faststrip-{version}")
     made = sorted(path for path in FOLDER.rglob("*") if path.is_file())

@@ -51,7 +51,7 @@ def interpolated(points, y):
 
 
 def worn_wheel(points):
-    """A hollow that is deepest on the field side of the tread line; z points down."""
+    """A hollow that is deepest on the field side of the rolling circle; z points down."""
     for i in range(-138, 120):
         y = 0.5 * i
         hollow = HOLLOW_MM * math.exp(-(((y - HOLLOW_PLACE_MM) / HOLLOW_WIDTH_MM) ** 2))

@@ -31,7 +31,7 @@ module faststrip_command_settings_profiles
 
     !> The left wheel of a case file; where it says nothing, as the right one.
     type, extends(shape_t) :: left_wheel_t
-        real(wp) :: radius = 0.0_wp !! rolling radius at the mean tread line, mm
+        real(wp) :: radius = 0.0_wp !! nominal radius, mm
     end type left_wheel_t
 
     !> The groups `wheel` and `rail` of a case file. What it says of one side only holds for both.

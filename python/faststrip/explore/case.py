@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import math
 import pathlib
 import tempfile
 from typing import NamedTuple, Optional, Tuple, Union
@@ -53,6 +54,10 @@ class Case:
     """what the right wheel bears more than the mean of both, and the left one less, as a part"""
     curvature: float = 0.0
     yield_shear: float = 300.0
+    roller_radius: float = 0.0
+    """of a roller in the rail's place; 0: a rail"""
+    is_curved: bool = False
+    """has each strip a plane of its own?"""
     is_vertical: bool = True
     """is the load the vertical one, and not the normal force?"""
     given_inclination: Optional[float] = None
@@ -70,9 +75,9 @@ class Case:
         return 0.0 if self.rail.is_file else STANDARD_INCLINATION
 
     @property
-    def pair(self) -> Tuple[Shape, Shape, float]:
-        """What contact geometry is of: wheel, rail and its inclination."""
-        return self.wheel, self.rail, self.inclination
+    def pair(self) -> Tuple[Shape, Shape, float, float, bool]:
+        """What all of a wheelset is of: its profiles, and how they bear on each other."""
+        return self.wheel, self.rail, self.inclination, self.roller_radius, self.is_curved
 
     @property
     def creepage(self) -> Tuple[float, float, float]:
@@ -92,11 +97,25 @@ class Control(NamedTuple):
     step: float
     view: str = ""
     """which view has it; empty: both"""
+    least: float = -math.inf
+    """of numbers other than 0"""
+    refusal: str = ""
+    """how the library names it where it refuses it"""
 
     @property
     def label(self) -> str:
         """Title with the unit."""
         return self.title + ("" if self.unit == "-" else f", {self.unit}")
+
+    @property
+    def range(self) -> str:
+        """What it can be, in words."""
+        zero = "" if math.isinf(self.least) else "0 or "
+        return f"{zero}a number from {max(self.low, self.least):g} to {self.high:g}"
+
+    def takes(self, value: float) -> bool:
+        """Can it be this, in its own unit?"""
+        return max(self.low, self.least) <= value <= self.high or value == 0.0 >= self.low
 
 
 CONTROLS = (
@@ -106,12 +125,14 @@ CONTROLS = (
     Control("transfer", "load transfer to the right", "%", 1e-2, -90.0, 90.0, 1.0,
             "wheelset"),
     Control("curvature", "track curvature", "1/km", 1e-6, -10.0, 10.0, 0.1,
-            "wheelset"),
+            "wheelset", refusal="curvature of a wheelset"),
     Control("cksi", "longitudinal creepage cksi", "%", 1e-2, -2.0, 2.0, 0.01, "contact"),
     Control("ceta", "lateral creepage ceta", "%", 1e-2, -2.0, 2.0, 0.01, "contact"),
     Control("cphi", "spin cphi", "rad/m", 1e-3, -1.0, 1.0, 0.005, "contact"),
     Control("mu", "coefficient of friction", "-", 1.0, 0.01, 0.8, 0.01),
     Control("yield_shear", "yield stress in shear k", "MPa", 1.0, 50.0, 800.0, 5.0),
+    Control("roller_radius", "roller radius (0: rail)", "mm", 1.0, 0.0, 2500.0, 100.0,
+            least=100.0, refusal="radius of the rollers"),
     Control("smoothing", "smoothing of files", "mm", 1.0, 0.0, 30.0, 0.5),
 )
 CONTROL = {control.name: control for control in CONTROLS}
@@ -132,10 +153,10 @@ def checked(case: Case) -> Case:
     """A case whose numbers the sliders can show; else CaseError."""
     for control in CONTROLS:
         value = to_slider(control, getattr(case, control.name, 0.0))
-        if not control.low <= value <= control.high:
+        if not control.takes(value):
             unit = "" if control.unit == "-" else f" {control.unit}"
-            raise CaseError(f"{control.title} must be from {control.low:g} to {control.high:g}"
-                            f"{unit} on the page, got {value:g}")
+            raise CaseError(f"{control.title} must be {control.range}{unit} on the page, got "
+                            f"{value:g}")
     return case
 
 

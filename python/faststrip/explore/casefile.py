@@ -13,7 +13,8 @@ from .case import RADIUS, STANDARD, Case, CaseError, find_shape
 TAKEN = {("contact", "load_n"): "load", ("contact", "shift_mm"): "shift",
          ("motion", "cksi"): "cksi", ("motion", "ceta"): "ceta",
          ("motion", "cphi_rad_per_mm"): "cphi", ("material", "mu"): "mu",
-         ("rail", "inclination"): "given_inclination", ("rail", "cant"): "given_inclination"}
+         ("rail", "inclination"): "given_inclination", ("rail", "cant"): "given_inclination",
+         ("rail", "roller_radius_mm"): "roller_radius", ("numerics", "curved"): "is_curved"}
 FIXED = {("wheel", "radius_mm"): RADIUS, ("wheel", "back_spacing_mm"): 1360.0,
          ("wheel", "tread_line_mm"): 70.0, ("rail", "gauge_mm"): 1435.0,
          ("rail", "gauge_depth_mm"): 14.0, ("material", "e_wheel_mpa"): 209920.0,
@@ -33,12 +34,11 @@ def read_case(name: str) -> Case:
         raise CaseError(f"not a case file: {name} ({problem})") from None
     found: Dict[str, Any] = {"is_vertical": False}
     for group, values in groups.items():
-        if group in PASSED_GROUPS:
-            continue
         if not isinstance(values, dict):
             raise CaseError(f"the group &{group} stands twice: {name}")
         for key, value in values.items():
-            take(found, group, key, value, name)
+            if group not in PASSED_GROUPS or (group, key) in TAKEN:
+                take(found, group, key, value, name)
     if not {"wheel", "rail"} <= set(found):
         raise CaseError(f"a case must have the groups wheel and rail with profiles: {name}")
     case = Case(**found)
@@ -57,9 +57,11 @@ def take(found: Dict[str, Any], group: str, key: str, value: Any, name: str) -> 
         if TAKEN[place] in found:
             raise CaseError("cant of &rail must not be given with inclination, which is its name: "
                             f"{name}")
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise CaseError(f"{key} of &{group} must be a number, got {value!r}: {name}")
-        found[TAKEN[place]] = float(value)
+        is_flag = TAKEN[place] == "is_curved"
+        if isinstance(value, bool) is not is_flag or not isinstance(value, (int, float)):
+            wanted = ".true. or .false." if is_flag else "a number"
+            raise CaseError(f"{key} of &{group} must be {wanted}, got {value!r}: {name}")
+        found[TAKEN[place]] = value if is_flag else float(value)
     elif key == "profile" and group in ("wheel", "rail"):
         found[group] = find_shape(group, beside(name, str(value), group))
     elif place == ("contact", "load_direction"):

@@ -32,8 +32,8 @@ refused.setv({visible: false}, {sync: false})
 TAKE = """
 const text = cb_obj.value.trim().replace(',', '.').replace('\u2212', '-')
 const value = Number(text)
-const fits = text !== '' && low <= value && value <= high
-if (!fits) refused.text = `must be a number from ${low} to ${high}, got ${cb_obj.value}`
+const fits = text !== '' && (least <= value && value <= high || value === 0 && low <= 0)
+if (!fits) refused.text = `must be ${range}, got ${cb_obj.value}`
 refused.visible = !fits
 const input = Bokeh.index.find_one_by_id(cb_obj.id)?.input_el
 input?.setAttribute('aria-invalid', String(!fits))
@@ -78,7 +78,8 @@ class Number:
     """A slider, a field that can be typed into, and a line for what is refused."""
 
     def __init__(self, control: Control, title: str, value: float) -> None:
-        ends = {"low": control.low, "high": control.high}
+        ends = {"low": control.low, "high": control.high, "range": control.range,
+                "least": max(control.low, control.least)}
         self.slider = Slider(start=control.low, end=control.high, step=control.step, value=value,
                              title=title, show_value=False, sizing_mode="stretch_width",
                              name=control.name, margin=(0, 5, 0, 8))
@@ -91,7 +92,12 @@ class Number:
             args={"field": self.field, "refused": refused}, code=SHOW))
         self.field.js_on_change("value", CustomJS(
             args={"slider": self.slider, "refused": refused, **ends}, code=TAKE))
+        self.refusal = control.refusal
+        self.told = Div(text='<div class="put" role="status"></div>', sizing_mode="stretch_width",
+                        name=f"{control.name}_told", margin=(0, 0, 0, 8),
+                        stylesheets=[REFUSED_STYLE])
         self.all = column(row(self.slider, self.field, sizing_mode="stretch_width"), refused,
+                          *([self.told] if control.refusal else []),
                           sizing_mode="stretch_width", name=f"{control.name}_all")
 
 
@@ -118,6 +124,10 @@ class Controls:
             labels=["vertical load Q", "normal force N"], active=0 if case.is_vertical else 1,
             name="load_direction", margin=(0, 4, 4, 4), sizing_mode="stretch_width")
         self.load.on_change("active", changed)
+        self.planes = RadioButtonGroup(
+            labels=["one plane", "a plane each strip"], active=int(case.is_curved), name="planes",
+            margin=(0, 4, 4, 4), sizing_mode="stretch_width")
+        self.planes.on_change("active", changed)
         self.numbers = {
             control.name: Number(control, control.label,
                                  to_slider(control, getattr(case, control.name, 0.0)))
@@ -128,7 +138,7 @@ class Controls:
     def rows(self) -> List[Model]:
         """Everything below each other."""
         return [self.view, row(*self.selects.values(), sizing_mode="stretch_width"),
-                row(*self.files.values(), sizing_mode="stretch_width"), self.load,
+                row(*self.files.values(), sizing_mode="stretch_width"), self.load, self.planes,
                 *(number.all for number in self.numbers.values())]
 
     def show(self, view: str) -> None:

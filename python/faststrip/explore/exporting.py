@@ -19,7 +19,7 @@ import numpy.typing as npt
 from .._contact import library_version
 from .._library import ProgramNotFound, library
 from .._results import Result
-from .case import RADIUS, STANDARD, Shape
+from .case import RADIUS, STANDARD, CaseError, Shape
 from .solving import METHODS, Answer, Outcome
 
 Array = npt.NDArray[np.float64]
@@ -82,9 +82,13 @@ def put_beside(kind: str, shape: Shape, files: Dict[str, bytes]) -> str:
 def case_files(outcome: Outcome) -> Dict[str, bytes]:
     """The case file and what has to stand beside it, by their names.
 
-    A yawed contact is given by its gap, as the program's ``contact`` knows no yaw.
+    A yawed contact is given by its gap, as the program's ``contact`` knows no yaw; CaseError where
+    each strip has a plane of its own, which such a gap does not say.
     """
     case, geometry = outcome.case, outcome.geometry
+    if case.yaw and case.is_curved:
+        raise CaseError("a yawed contact with a plane for each strip is no case of the program: "
+                        "gap files have no inclination")
     files: Dict[str, bytes] = {}
     direction = "vertical" if case.is_vertical else "normal"
     lines = [f"! Written by faststrip-explore {library_version()}: one right wheel on one right "
@@ -105,12 +109,14 @@ def case_files(outcome: Outcome) -> Dict[str, bytes]:
                   "&wheel", f"  profile = {quoted(put_beside('wheel', case.wheel, files))}",
                   f"  radius_mm = {RADIUS!r}", "/",
                   "&rail", f"  profile = {quoted(put_beside('rail', case.rail, files))}",
-                  f"  inclination = {case.inclination!r}", "/"]
+                  f"  inclination = {case.inclination!r}",
+                  f"  roller_radius_mm = {case.roller_radius!r}", "/"]
     lines += ["&material", f"  mu = {case.mu!r}", "/",
               "&motion", "  creepage = 'given'", f"  cksi = {case.cksi!r}",
               f"  ceta = {case.ceta!r}", f"  cphi_rad_per_mm = {case.cphi!r}", "/",
               "&numerics", "  normal = 'strip'", "  tangential = 'faststrip'",
-              "  strips_per_patch = 15", "  points_per_strip = 15", "/", ""]
+              "  strips_per_patch = 15", "  points_per_strip = 15",
+              f"  curved = .{str(case.is_curved).lower()}.", "/", ""]
     return {f"{NAME}.nml": "\n".join(lines).encode("utf-8"), **files}
 
 

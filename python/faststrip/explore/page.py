@@ -222,6 +222,7 @@ class Page:
         # What was said of the first rail is not said of another one.
         is_first = self.shapes["rail"][self.controls.selects["rail"].value] is self.begun.rail
         return Case(**told, is_vertical=self.controls.load.active == 0,
+                    is_curved=self.controls.planes.active == 1,
                     given_inclination=self.begun.given_inclination if is_first else None)
 
     def changed(self, attr: str, old: Any, new: Any) -> None:
@@ -274,6 +275,9 @@ class Page:
             text, colour = (wheelset_status_of(self.wheelset) if self.view == "wheelset"
                             else status_of(self.outcome))
         self.wire.write(self.status, f'<div style="color:{colour}">{html.escape(text)}</div>')
+        for number in self.controls.numbers.values():
+            if number.refusal:
+                self.wire.write(number.told, html.escape(text) if number.refusal in text else "")
         self.wire.send()
 
     # What takes longer, in a thread of its own once the sliders rest
@@ -377,7 +381,11 @@ class Page:
                               "content": [base64.b64encode(content).decode("ascii")]}
 
     def save_case(self) -> None:
-        name, content = packed(case_files(self.outcome))
+        try:
+            name, content = packed(case_files(self.outcome))
+        except CaseError as problem:
+            self.say(str(problem))
+            return
         self.send(name, content, "application/octet-stream")
 
     def save_numbers(self) -> None:
@@ -411,9 +419,13 @@ class Page:
         if self.outcome.geometry is None:
             self.say("there is no contact that NORM + TANG could solve")
             return
+        try:
+            files, motion = case_files(self.outcome), self.outcome.motion
+        except CaseError as problem:
+            self.say(str(problem))
+            return
         self.run = run = Program()
         self.norm.label = "NORM + TANG runs: end it"
-        files, motion = case_files(self.outcome), self.outcome.motion
 
         def work() -> None:
             try:

@@ -129,6 +129,12 @@ class Outcome:
 METHODS = {"strips": ("strip", "faststrip"), "hertz": ("hertz", "fastsim")}
 
 
+def contacts(**options: Any) -> Dict[Tuple[str, bool], Contact]:
+    """One of each method, of strips in one plane and in a plane each."""
+    return {(name, curved): Contact(normal=normal, tangential=tangential, curved=curved, **options)
+            for name, (normal, tangential) in METHODS.items() for curved in (False, True)}
+
+
 class Kept:
     """Solutions that are kept, with what they took."""
 
@@ -160,10 +166,8 @@ class Solver(Kept):
 
     def __init__(self) -> None:
         super().__init__()
-        self._contacts = {name: Contact(normal=normal, tangential=tangential, with_elements=True)
-                          for name, (normal, tangential) in METHODS.items()}
-        self._curves = {name: Contact(normal=normal, tangential=tangential, estimate=False)
-                        for name, (normal, tangential) in METHODS.items()}
+        self._contacts = contacts(with_elements=True)
+        self._curves = contacts(estimate=False)
         self._wheelset: Tuple[Any, Optional[Wheelset]] = None, None
 
     def solve(self, case: Case, axis: str = "cksi") -> Outcome:
@@ -208,7 +212,8 @@ class Solver(Kept):
         if self._wheelset[0] != key or self._wheelset[1] is None:
             self._wheelset = key, Wheelset(case.wheel.profile, case.rail.profile, radius=RADIUS,
                                            inclination=case.inclination, tangential="none",
-                                           estimate=False)
+                                           roller_radius=case.roller_radius,
+                                           curved=case.is_curved, estimate=False)
         return self._wheelset[1]  # type: ignore[return-value]
 
     def prepare(self, case: Case) -> None:
@@ -217,7 +222,7 @@ class Solver(Kept):
             self._wheelset_of(case)
 
     def _answer(self, name: str, geometry: Geometry, case: Case) -> Answer:
-        contact = self._contacts[name]
+        contact = self._contacts[name, case.is_curved]
         try:
             contact.set_gap(*geometry.gap)
             result = contact.solve(load=geometry.load, creepage=case.creepage, mu=case.mu)
@@ -232,7 +237,8 @@ class Solver(Kept):
         values = half * np.sign(part) * np.abs(part) ** 1.5
         fx, fy = {}, {}
         bound = case.mu * geometry.load
-        for name, contact in self._curves.items():
+        for name in METHODS:
+            contact = self._curves[name, case.is_curved]
             rows: List[Tuple[float, float]] = []
             try:
                 contact.set_gap(*geometry.gap)
@@ -280,7 +286,8 @@ class Solver(Kept):
             for name, (normal, _) in METHODS.items():
                 many = solve_many([one.gap for one in bodies.values()],
                                   load=[one.load for one in bodies.values()], normal=normal,
-                                  tangential="none", estimate=False, threads=1)
+                                  tangential="none", estimate=False, curved=case.is_curved,
+                                  threads=1)
                 pressure[name][there] = np.where(many.status < FIRST_ERROR, many.pmax, math.nan)
         places = np.array([math.nan if isinstance(one, str) else one.place.y_wheel
                            for one in found])
@@ -302,7 +309,7 @@ def map_of(geometry: Geometry, case: Case, half: Tuple[float, float]) -> Array:
     """Forces over mu N over both creepages; nan where there are none."""
     cksi, ceta = (np.linspace(-one, one, MAP_POINTS) for one in half)
     found = solve_many(geometry.gap, load=geometry.load, mu=case.mu, estimate=False,
-                       creepage=(cksi, ceta[:, None], case.cphi), threads=1)
+                       curved=case.is_curved, creepage=(cksi, ceta[:, None], case.cphi), threads=1)
     part = np.hypot(found.fx, found.fy) / (case.mu * geometry.load)
     return np.where(found.status < FIRST_ERROR, part, math.nan)
 
@@ -310,7 +317,7 @@ def map_of(geometry: Geometry, case: Case, half: Tuple[float, float]) -> Array:
 def straight(case: Case) -> Geometry:
     """Of a wheel without yaw: the gap about the rigid contact, as the program has it; no load."""
     gap = profile_gap(case.wheel.profile, case.rail.profile, shift=case.shift, radius=RADIUS,
-                      inclination=case.inclination)
+                      inclination=case.inclination, roller_radius=case.roller_radius)
     place = Place(gap.y_rail, gap.y_wheel, gap.angle, 0.0)
     return Geometry((gap.y, gap.h, gap.inv2r, gap.inclination), 0.0, place, (place,), gap.radius)
 

@@ -65,7 +65,9 @@ def summary_of(case: Case, outcome: Optional[Outcome]) -> List[str]:
                              f"{control.unit}" for control in CONTROLS}
     load = "Q" if case.is_vertical else "N"
     lines = [f"{case.wheel.label} on {case.rail.label}, y {numbers['shift']}, "
-             f"yaw {numbers['yaw']}, {load} {numbers['load']}"]
+             f"yaw {numbers['yaw']}, {load} {numbers['load']}"
+             + (f", rollers of {numbers['roller_radius']}" if case.roller_radius else "")
+             + (", a plane each strip" if case.is_curved else "")]
     if outcome is None:
         return [f"{lines[0]}, load transfer {numbers['transfer']}, curvature "
                 f"{numbers['curvature']}, mu {case.mu:g}"]

@@ -75,7 +75,8 @@ class WheelsetSolver(Kept):
             outcome.profiles = self._profiles(case)
             wheelset = self._once("a new wheelset", (case.pair, case.mu), lambda: Wheelset(
                 case.wheel.profile, case.rail.profile, radius=RADIUS,
-                inclination=case.inclination, mu=case.mu))
+                inclination=case.inclination, roller_radius=case.roller_radius,
+                curved=case.is_curved, mu=case.mu))
             key = (case.pair, case.mu, case.shift, case.yaw, case.load, case.transfer,
                    case.curvature, case.yield_shear)
             outcome.result, outcome.strips, outcome.wear = self._once(

@@ -92,7 +92,7 @@ module faststrip_base_plausible
                    'metres', ''), &
         quantity_t('gauge, distance of backs', 'mm', over_one, any_size, 60.0_wp, 6.0e4_wp, &
                    'metres or inches', 'micrometres'), &
-        quantity_t('tread line', 'mm', over_one, any_size, 1.0_wp, 300.0_wp, 'metres', &
+        quantity_t('nominal rolling circle', 'mm', over_one, any_size, 1.0_wp, 300.0_wp, 'metres', &
                    'micrometres'), &
         quantity_t('depth of the gauge', 'mm', over_one, any_size, 0.5_wp, 100.0_wp, 'metres', &
                    'micrometres'), &

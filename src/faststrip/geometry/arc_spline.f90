@@ -13,12 +13,12 @@ module faststrip_geometry_arc_spline
                                      st_not_increasing, st_not_finite, st_bad_argument
     use faststrip_geometry_touchable, only: upright
     use faststrip_numerics_spline, only: spline_setup, spline_work_size, spline_not_a_knot, &
-                                         cubic_value, interval_of
+                                         cubic_value, interval_of, widen_by_cubic
     implicit none
     private
 
-    public :: arc_spline_t, make_arc_spline, arc_spline_at, find_kinks, chord_lengths, &
-              standard_kink_angle, fewest_points
+    public :: arc_spline_t, make_arc_spline, arc_spline_at, arc_spline_bounds, find_kinks, &
+              chord_lengths, standard_kink_angle, fewest_points
 
     !> Turn of a profile within one point from which it is a kink, rad.
     !> Tuned [rad]: 20 degrees. Origin: points 2 mm apart on the gauge corner R13 turn by 9 degrees.
@@ -216,6 +216,28 @@ contains
         dz = z1/y1
         d2z = (z2 - dz*y2)/y1**2
     end subroutine arc_spline_at
+
+    !> Bounds of the depth between two places.
+    pure function arc_spline_bounds(curve, from, to) result(bounds)
+        type(arc_spline_t), intent(in) :: curve !! from `make_arc_spline`
+        real(wp), intent(in) :: from  !! on the curve, mm
+        real(wp), intent(in) :: to    !! the same, not before, mm
+        real(wp) :: bounds(2)         !! z is from the first to the second one, mm
+
+        real(wp) :: h, t(2)
+        integer :: i, first, last
+
+        bounds = [huge(1.0_wp), -huge(1.0_wp)]
+        first = interval_of(curve%y, from)
+        last = interval_of(curve%y, to)
+        do i = first, last
+            h = curve%s(i + 1) - curve%s(i)
+            t = [0.0_wp, h]
+            if (i == first) t(1) = place_in(curve, i, h, from)
+            if (i == last) t(2) = place_in(curve, i, h, to)
+            call widen_by_cubic(curve%z(i:i + 1), [curve%z_from(i), curve%z_to(i)], h, t, bounds)
+        end do
+    end function arc_spline_bounds
 
     !> The length within interval i at which it has a given y: Newton between halvings.
     pure real(wp) function place_in(curve, i, h, y) result(t)

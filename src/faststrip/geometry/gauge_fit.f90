@@ -9,7 +9,7 @@ module faststrip_geometry_gauge_fit
     implicit none
     private
 
-    public :: find_back_spacing, check_fit, check_tape_circles
+    public :: find_back_spacing, check_fit, check_rolling_circles
 
     ! Gauges within these ranges are of one kind of track, worn and widened in curves, and its
     ! wheelsets have these distances of the flange backs.
@@ -85,11 +85,11 @@ contains
                 return
             end if
         end if
-        call check_tape_circles(back_spacing, tread_line, gauge, status)
+        call check_rolling_circles(back_spacing, tread_line, gauge, status)
     end subroutine check_fit
 
-    !> Tape circles that are not over the heads of the rails are refused.
-    pure subroutine check_tape_circles(back_spacing, tread_line, gauge, status)
+    !> Nominal rolling circles that are not over the heads of the rails are refused.
+    pure subroutine check_rolling_circles(back_spacing, tread_line, gauge, status)
         real(wp), intent(in) :: back_spacing     !! distance of the flange backs, mm
         real(wp), intent(in) :: tread_line       !! flange back to nominal rolling circle, mm
         real(wp), intent(in) :: gauge            !! mm
@@ -112,7 +112,7 @@ contains
                             ' mm apart; ' // trim(number_text(belonging)) // &
                             ' mm belong to this gauge')
         end if
-    end subroutine check_tape_circles
+    end subroutine check_rolling_circles
 
     pure function pair_words(gauge, back_spacing) result(words)
         real(wp), intent(in) :: gauge, back_spacing

@@ -1,8 +1,8 @@
 !> Wheel and rail profiles of every kind behind one interface.
 !>
 !> The frame is that of a right wheel and a right rail: y to the field side, z down. A wheel has
-!> y = 0 at its mean tread line; a rail is inclined already, with the origin at its highest point
-!> (points: where their author put it).
+!> y = 0 at its nominal rolling circle; a rail is inclined already, with the origin at its highest
+!> point (points: where their author put it).
 !>
 !> The rail inclination is the tangent of the angle by which the rail leans to the track's centre,
 !> 0.025 for 1:40. A rail by name stands upright in its drawing: it is inclined by
@@ -16,11 +16,11 @@ module faststrip_geometry_profile
                                              uic60_transition, en60e1_transition, &
                                              en54e1_transition, half_width_54
     use faststrip_geometry_arc_spline, only: arc_spline_t, make_arc_spline, arc_spline_at, &
-                                             standard_kink_angle
+                                             standard_kink_angle, arc_spline_bounds
     use faststrip_geometry_touchable, only: touchable_t, find_touchable, body_wheel, body_rail
     use faststrip_geometry_sampled, only: sampled_profile_t, make_sampled_profile, &
-                                          sampled_profile_at
-    use faststrip_geometry_wheel_s1002, only: s1002_at, s1002_first, s1002_last
+                                          sampled_profile_at, sampled_profile_bounds
+    use faststrip_geometry_wheel_s1002, only: s1002_at, s1002_first, s1002_last, s1002_tip
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_not_finite, st_out_of_range, &
                                      st_too_few_points
@@ -29,7 +29,7 @@ module faststrip_geometry_profile
     private
 
     public :: profile_t, make_wheel_profile, make_rail_profile, make_points_profile, profile_at
-    public :: make_curve_profile, thin_profile
+    public :: make_curve_profile, thin_profile, profile_bounds
     public :: profile_none, profile_s1002, profile_uic60, profile_60e1, profile_points
     public :: profile_curve, profile_54e1, profile_cone
     public :: standard_inclination, unset_inclination
@@ -301,6 +301,33 @@ contains
             call set_status(status, st_out_of_range, 'there is no profile')
         end select
     end subroutine profile_at
+
+    !> Bounds of a profile between two places; of S1002 but for its jumps, 1.2e-4 mm.
+    pure function profile_bounds(profile, from, to) result(bounds)
+        type(profile_t), intent(in) :: profile !! a profile that was made
+        real(wp), intent(in) :: from           !! on the profile, mm
+        real(wp), intent(in) :: to             !! the same, not before, mm
+        real(wp) :: bounds(2)                  !! z is from the first to the second one, mm
+
+        real(wp) :: places(3), z(3), dz, d2z
+        type(status_t) :: inside
+        integer :: i
+
+        select case (profile%kind)
+        case (profile_points)
+            bounds = sampled_profile_bounds(profile%sampled, from, to)
+        case (profile_curve)
+            bounds = arc_spline_bounds(profile%curve, from, to)
+        case default
+            ! From the flange tip, or the highest point of a rail, z goes one way to both sides.
+            places = [from, to, merge(s1002_tip, 0.0_wp, profile%kind == profile_s1002)]
+            if (places(3) < from .or. places(3) > to) places(3) = from
+            do i = 1, 3
+                call profile_at(profile, places(i), z(i), dz, d2z, inside)
+            end do
+            bounds = [minval(z), maxval(z)]
+        end select
+    end function profile_bounds
 
     !> A straight tread that rises to the field side.
     pure subroutine cone_at(profile, y, z, dz, d2z, status)

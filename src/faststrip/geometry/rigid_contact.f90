@@ -8,9 +8,12 @@ module faststrip_geometry_rigid_contact
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_halvings, largest_place, equal_within
-    use faststrip_geometry_gauge_fit, only: check_fit, check_tape_circles
-    use faststrip_geometry_profile, only: profile_t, profile_at
+    use faststrip_base_limits, only: most_halvings, largest_place
+    use faststrip_geometry_contact_scan, only: placing_t, wheel_level, find_lowest_dip, &
+                                               find_lowest_sample, sample_place, sample_step, &
+                                               scan_step, stretch, slack
+    use faststrip_geometry_gauge_fit, only: check_fit, check_rolling_circles
+    use faststrip_geometry_profile, only: profile_t, profile_at, profile_bounds
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument, st_no_contact, st_out_of_range
     implicit none
@@ -19,16 +22,15 @@ module faststrip_geometry_rigid_contact
     public :: wheelset_t, track_t, rigid_contact_t
     public :: find_rigid_contact, find_rigid_contacts, contact_force, shift_creepage
     public :: place_rail, check_roller, creepage_set_a, creepage_set_b, largest_length
-    public :: scan_step
 
     !> The wheelset; both wheels carry the same profile.
     type :: wheelset_t
         ! Given: dimensions of standard gauge.
         real(wp) :: back_spacing = 1360.0_wp !! distance of the two flange backs, mm
         ! Given: dimensions of the wheelset.
-        real(wp) :: tread_line = 70.0_wp     !! flange back to mean tread line (y = 0), mm
+        real(wp) :: tread_line = 70.0_wp     !! flange back to nominal rolling circle (y = 0), mm
         ! Given: dimensions of the reference's wheelset.
-        real(wp) :: radius = 460.0_wp        !! rolling radius r0 at the mean tread line, mm
+        real(wp) :: radius = 460.0_wp        !! nominal radius r0, mm
     end type wheelset_t
 
     !> The track; both rails carry the same profile.
@@ -65,9 +67,6 @@ module faststrip_geometry_rigid_contact
     !> Given: numbers of kinds.
     integer, parameter :: creepage_set_b = 2
 
-    !> Spacing of the scan for the smallest distance, mm.
-    !> Tuned [mm]. Origin: well below the curvature of flange and rail corner.
-    real(wp), parameter :: scan_step = 0.02_wp
     !> Lengths and coordinates beyond are refused, mm.
     !> Tuned [mm]. Origin: safeguard.
     real(wp), parameter :: largest_length = 1.0e6_wp
@@ -76,9 +75,7 @@ contains
 
     !> The rigid contact of a right wheel on the right rail.
     !>
-    !> The wheel comes down vertically: contact is where the vertical distance is smallest. The
-    !> distance is scanned over the whole common width and every dip that could be the lowest is
-    !> refined on the difference of the slopes, so that of two nearly equal dips the lower wins.
+    !> The wheel comes down vertically: contact is where the vertical distance is smallest.
     pure subroutine find_rigid_contact(wheel, rail, wheelset, track, shift, contact, status)
         type(profile_t), intent(in) :: wheel           !! wheel profile
         type(profile_t), intent(in) :: rail            !! rail profile, inclined
@@ -90,7 +87,7 @@ contains
                                                        !! `st_out_of_range`: profiles too short;
                                                        !! `st_no_contact`: they do not overlap or
                                                        !! touch at the end of a profile
-        real(wp) :: offset, first, last, z_crown
+        real(wp) :: offset, first, last, z_crown, least
         logical :: found
 
         call check_setup(wheelset, track, shift, status)
@@ -105,7 +102,8 @@ contains
                             // trim(number_text(shift)) // ' mm')
             return
         end if
-        call find_lowest_dip(wheel, rail, offset, first, last, contact%y_rail, found)
+        call find_lowest_dip(wheel, rail, placing_t(wheel_level, offset), first, last, &
+                             contact%y_rail, least, found)
         if (.not. found) then
             call set_status(status, st_no_contact, &
                             'wheel and rail touch at the end of a profile at the shift ' // &
@@ -117,101 +115,6 @@ contains
             contact%roller_radius = track%roller_radius + z_crown - contact%z_rail
     end subroutine find_rigid_contact
 
-    !> Where the distance of wheel and rail is smallest between two places; none is found if that is
-    !> at one of them.
-    pure subroutine find_lowest_dip(wheel, rail, offset, first, last, y, found)
-        type(profile_t), intent(in) :: wheel, rail
-        real(wp), intent(in) :: offset      ! of the wheel's coordinate
-        real(wp), intent(in) :: first, last ! on the rail profile, mm
-        real(wp), intent(out) :: y          ! on the rail profile, mm
-        logical, intent(out) :: found
-
-        real(wp) :: step, left, middle, right, best, refined, lowest, at
-        integer :: i, n
-
-        n = ceiling((last - first)/scan_step)
-        step = (last - first)/real(n, wp)
-
-        lowest = huge(lowest)
-        do i = 0, n
-            lowest = min(lowest, distance(place(i)))
-        end do
-        y = 0.0_wp
-        best = huge(best)
-        left = distance(place(0))
-        middle = distance(place(1))
-        do i = 2, n
-            right = distance(place(i))
-            ! A dip can lie below its lowest sample by no more than the samples differ.
-            if (middle <= left .and. middle <= right &
-                .and. middle - max(left - middle, right - middle) <= lowest) then
-                at = dip(wheel, rail, offset, place(i - 2), place(i))
-                refined = distance(at)
-                if (refined < best) then
-                    best = refined
-                    y = at
-                end if
-            end if
-            left = middle
-            middle = right
-        end do
-        ! Samples of two arcs may lie lower by rounding.
-        found = .not. best - equal_within > lowest
-
-    contains
-
-        pure real(wp) function place(j)
-            integer, intent(in) :: j
-
-            place = min(first + real(j, wp)*step, last)
-        end function place
-
-        pure real(wp) function distance(at) result(value)
-            real(wp), intent(in) :: at
-
-            real(wp) :: slope
-
-            call distance_and_slope(wheel, rail, offset, at, value, slope)
-        end function distance
-    end subroutine find_lowest_dip
-
-    !> Vertical distance of wheel and rail but for a constant, and its slope.
-    pure subroutine distance_and_slope(wheel, rail, offset, at, value, slope)
-        type(profile_t), intent(in) :: wheel, rail
-        real(wp), intent(in) :: offset, at
-        real(wp), intent(out) :: value, slope
-
-        real(wp) :: z_rail, z_wheel, dz_rail, dz_wheel, d2z, y_wheel
-        type(status_t) :: inside
-
-        y_wheel = max(wheel%y_first, min(at + offset, wheel%y_last))
-        call profile_at(rail, at, z_rail, dz_rail, d2z, inside)
-        call profile_at(wheel, y_wheel, z_wheel, dz_wheel, d2z, inside)
-        value = z_rail - z_wheel
-        slope = dz_rail - dz_wheel
-    end subroutine distance_and_slope
-
-    !> Where the slope of the distance changes sign between two places.
-    pure real(wp) function dip(wheel, rail, offset, from, to) result(at)
-        type(profile_t), intent(in) :: wheel, rail
-        real(wp), intent(in) :: offset, from, to
-
-        real(wp) :: low, high, value, slope
-        integer :: k
-
-        low = from
-        high = to
-        do k = 1, most_halvings
-            at = 0.5_wp*(low + high)
-            call distance_and_slope(wheel, rail, offset, at, value, slope)
-            if (slope < 0.0_wp) then
-                low = at
-            else
-                high = at
-            end if
-        end do
-    end function dip
-
     pure subroutine check_setup(wheelset, track, shift, status)
         type(wheelset_t), intent(in) :: wheelset
         type(track_t), intent(in) :: track
@@ -220,7 +123,8 @@ contains
 
         call clear_status(status)
         call check_length('distance of the flange backs', wheelset%back_spacing, status)
-        call check_length('distance of flange back and tread line', wheelset%tread_line, status)
+        call check_length('distance of flange back and nominal rolling circle', &
+                          wheelset%tread_line, status)
         call check_length('rolling radius', wheelset%radius, status)
         call check_length('gauge', track%gauge, status)
         call check_length('depth of the gauge below the crown', track%gauge_depth, status)
@@ -316,7 +220,7 @@ contains
             if (is_error(status)) then
                 call clear_status(status)
             else
-                call check_tape_circles(wheelset%back_spacing, wheelset%tread_line, &
+                call check_rolling_circles(wheelset%back_spacing, wheelset%tread_line, &
                                         track%rail_distance + 2.0_wp*y_gauge, status)
             end if
         else if (.not. is_error(status)) then
@@ -350,27 +254,16 @@ contains
         real(wp), intent(out) :: y_gauge      !! on the profile, mm
         type(status_t), intent(out) :: status !! `st_out_of_range`: it does not reach so deep
         real(wp), intent(out) :: z_crown      !! highest point of the profile, mm
-        real(wp), intent(out) :: z_bottom     !! its lowest sample, mm
-        real(wp) :: step, z, dz, d2z, top, low, high, y
-        integer :: i, n, i_top
+        real(wp), intent(out) :: z_bottom     !! bound of its lowest point, mm
+        real(wp) :: z, dz, d2z, top, low, high, y, bounds(2)
+        integer :: i, i_top
 
-        n = max(ceiling((rail%y_last - rail%y_first)/scan_step), 2)
-        step = (rail%y_last - rail%y_first)/real(n, wp)
-        top = huge(top)
-        z_bottom = -huge(top)
-        i_top = 0
-        do i = 0, n
-            call profile_at(rail, min(rail%y_first + real(i, wp)*step, rail%y_last), z, dz, d2z, &
-                            status)
-            z_bottom = max(z_bottom, z)
-            if (z < top) then
-                top = z
-                i_top = i
-            end if
-        end do
+        bounds = profile_bounds(rail, rail%y_first, rail%y_last)
+        z_bottom = bounds(2)
+        call find_lowest_sample(rail, rail, placing_t(), rail%y_first, rail%y_last, top, i_top)
         ! The crown itself, where the slope changes sign next to the highest sample.
-        low = rail%y_first + real(max(i_top - 1, 0), wp)*step
-        high = min(rail%y_first + real(i_top + 1, wp)*step, rail%y_last)
+        low = sample(max(i_top - 1, 0))
+        high = sample(i_top + 1)
         do i = 1, most_halvings
             y = 0.5_wp*(low + high)
             call profile_at(rail, y, z, dz, d2z, status)
@@ -384,9 +277,16 @@ contains
         z_crown = top
         ! From the crown inwards to the first sample below the depth.
         y_gauge = 0.0_wp
-        do i = i_top - 1, 0, -1
-            call profile_at(rail, rail%y_first + real(i, wp)*step, z, dz, d2z, status)
-            if (z - top >= depth) exit
+        i = i_top - 1
+        do while (i >= 0)
+            bounds = profile_bounds(rail, sample(max(i - stretch, 0)), sample(i))
+            if (bounds(2) - top < depth - slack) then
+                i = i - stretch
+            else
+                call profile_at(rail, sample(i), z, dz, d2z, status)
+                if (z - top >= depth) exit
+                i = i - 1
+            end if
         end do
         if (i < 0 .and. rail%is_clipped .and. rail%z_below - top >= depth) then
             ! The gauge face overhangs: its innermost place is where it was clipped.
@@ -399,8 +299,8 @@ contains
                             ' mm below its crown where the gauge is measured (gauge_depth_mm)')
             return
         end if
-        low = rail%y_first + real(i, wp)*step
-        high = min(low + step, rail%y_last)
+        low = sample(i)
+        high = min(low + sample_step(rail%y_first, rail%y_last), rail%y_last)
         do i = 1, most_halvings
             y_gauge = 0.5_wp*(low + high)
             call profile_at(rail, y_gauge, z, dz, d2z, status)
@@ -410,6 +310,14 @@ contains
                 high = y_gauge
             end if
         end do
+
+    contains
+
+        pure real(wp) function sample(number)
+            integer, intent(in) :: number
+
+            sample = sample_place(rail%y_first, rail%y_last, number)
+        end function sample
     end subroutine find_gauge_point
 
     pure subroutine complete_contact(wheel, rail, wheelset, shift, offset, contact, status)

@@ -4,13 +4,13 @@ module faststrip_geometry_sampled
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_arc_spline, only: fewest_points
     use faststrip_numerics_spline, only: spline_setup, spline_value, spline_work_size, &
-                                         spline_not_a_knot
+                                         spline_not_a_knot, interval_of, widen_by_cubic
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      count_text, st_out_of_range, st_too_few_points
     implicit none
     private
 
-    public :: sampled_profile_t, make_sampled_profile, sampled_profile_at
+    public :: sampled_profile_t, make_sampled_profile, sampled_profile_at, sampled_profile_bounds
 
     !> Points and the slopes of the curve through them.
     type :: sampled_profile_t
@@ -70,4 +70,22 @@ contains
         end if
         call spline_value(profile%y, profile%z, profile%slope, y, z, dz, d2z)
     end subroutine sampled_profile_at
+
+    !> Bounds of the curve between two places.
+    pure function sampled_profile_bounds(profile, from, to) result(bounds)
+        type(sampled_profile_t), intent(in) :: profile !! from `make_sampled_profile`
+        real(wp), intent(in) :: from  !! on the profile, mm
+        real(wp), intent(in) :: to    !! the same, not before, mm
+        real(wp) :: bounds(2)         !! z is from the first to the second one, mm
+
+        integer :: i
+
+        bounds = [huge(1.0_wp), -huge(1.0_wp)]
+        associate (y => profile%y)
+            do i = interval_of(y, from), interval_of(y, to)
+                call widen_by_cubic(profile%z(i:i + 1), profile%slope(i:i + 1), y(i + 1) - y(i), &
+                                    [max(from, y(i)), min(to, y(i + 1))] - y(i), bounds)
+            end do
+        end associate
+    end function sampled_profile_bounds
 end module faststrip_geometry_sampled

@@ -2,10 +2,10 @@
 !>
 !> The track frame: x in the direction of travel, y to the right, z down; its origin on the centre
 !> line, as high as the crowns of the rails. The centre of a wheelset that stands level on the
-!> track is at `(0, y, z - r)`, with r the mean of its nominal radii: z = 0 where the tread lines
-!> are as high as the crowns. The wheelset is turned by its yaw about z (nose to the right) and
-!> then by its roll about the track's x (right wheel down), as CONTACT turns it. Each rail may lie
-!> beside its place in the design, turned about x, and may move there.
+!> track is at `(0, y, z - r)`, with r the mean of its nominal radii: z = 0 where the nominal
+!> rolling circles are as high as the crowns. The wheelset is turned by its yaw about z (nose to the
+!> right) and then by its roll about the track's x (right wheel down), as CONTACT turns it. Each
+!> rail may lie beside its place in the design, turned about x, and may move there.
 module faststrip_geometry_wheelset_state
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_creepage, only: creepage_t

@@ -47,10 +47,10 @@ contains
         type(profile_source_t), intent(in) :: of_wheel !! as a right one
         type(profile_source_t), intent(in) :: of_rail  !! as a right one
         real(wp), intent(in) :: setup(n_setup)
-            !! distance of the flange backs (0: as belongs to the gauge), flange back to tape
-            !! circle, rolling radius, gauge, its depth below the crown, rail inclination, its
-            !! tangent, or `unset_inclination`, shift to the right, spacing of the gap, its height:
-            !! mm
+            !! distance of the flange backs (0: as belongs to the gauge), flange back to nominal
+            !! rolling circle, nominal radius, gauge, its depth below the crown, rail inclination,
+            !! its tangent, or `unset_inclination`, shift to the right, spacing and height of the
+            !! gap, lengths in mm
         type(gap_t), intent(out) :: gap                !! mm, mm, 1/mm, rad
         real(wp), intent(inout) :: contact(n_contact)
             !! contact angle, rad; rolling radius there, mm; y on the wheel and on the rail, mm;

@@ -12,7 +12,7 @@ module faststrip_numerics_spline
     implicit none
     private
 
-    public :: spline_setup, spline_value, spline_work_size, cubic_value, interval_of
+    public :: spline_setup, spline_value, spline_work_size, cubic_value, interval_of, widen_by_cubic
     public :: spline_not_a_knot, spline_monotone
     public :: check_points, find_secants, not_a_knot_slopes, monotone_slopes
 
@@ -289,6 +289,25 @@ contains
         d1 = slopes(1) + t*(2.0_wp*c2 + 3.0_wp*t*c3)
         d2 = 2.0_wp*c2 + 6.0_wp*t*c3 ! Given: second derivative of a cubic
     end subroutine cubic_value
+
+    !> Widen bounds so that a cubic lies within them between two places: it does within those of its
+    !> control points (Farin, Curves and Surfaces for CAGD, ch. 5).
+    pure subroutine widen_by_cubic(ends, slopes, h, t, bounds)
+        real(wp), intent(in) :: ends(2)      !! values at the ends
+        real(wp), intent(in) :: slopes(2)    !! slopes there
+        real(wp), intent(in) :: h            !! width, above 0
+        real(wp), intent(in) :: t(2)         !! places from the first end on, the second not before
+        real(wp), intent(inout) :: bounds(2) !! the smaller and the larger one
+
+        real(wp) :: values(4), d1(2), d2
+        integer :: i
+
+        do i = 1, 2
+            call cubic_value(ends, slopes, h, t(i), values(i), d1(i), d2)
+        end do
+        values(3:) = values(:2) + [d1(1), -d1(2)]*(t(2) - t(1))/3.0_wp
+        bounds = [min(bounds(1), minval(values)), max(bounds(2), maxval(values))]
+    end subroutine widen_by_cubic
 
     !> The interval [x(i), x(i+1)) that holds a place between the first and the last knot.
     pure integer function interval_of(x, at) result(i)

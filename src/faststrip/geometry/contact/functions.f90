@@ -6,13 +6,14 @@
 !> the middle of its axle, positive where the right wheel goes down; the shift is the middle's.
 module faststrip_geometry_contact_functions
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_halvings, most_steps, rounding
+    use faststrip_base_limits, only: most_steps, rounding
     use faststrip_base_plausible, only: quantities, of_turn
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_no_contact, st_no_convergence
+    use faststrip_geometry_contact_scan, only: placing_t, wheel_rolled, find_lowest_dip
     use faststrip_geometry_profile, only: profile_t, profile_at
     use faststrip_geometry_rigid_contact, only: wheelset_t, track_t, rigid_contact_t, &
-                                                find_rigid_contact, scan_step
+                                                find_rigid_contact
     implicit none
     private
 
@@ -20,10 +21,10 @@ module faststrip_geometry_contact_functions
 
     !> A wheel and the rail below it, in the frame of the right side.
     type :: side_t
-        type(profile_t) :: wheel            !! y = 0 at the mean tread line
+        type(profile_t) :: wheel            !! y = 0 at the nominal rolling circle
         type(profile_t) :: rail             !! inclined
         ! Given: dimensions of the reference's wheelset.
-        real(wp) :: radius = 460.0_wp       !! rolling radius at the mean tread line, mm
+        real(wp) :: radius = 460.0_wp       !! nominal radius, mm
     end type side_t
 
     !> A shifted wheelset.
@@ -130,114 +131,36 @@ contains
         real(wp), intent(out) :: slope                ! by which it rises with the roll, mm/rad
         type(status_t), intent(out) :: status
 
-        real(wp) :: step, left, middle, right, lowest, refined, at, z, dz, d2z
-        real(wp) :: across, below, origin
-        integer :: i, n
+        type(placing_t) :: placing
+        real(wp) :: z, dz, d2z
+        logical :: found
 
         call clear_status(status)
         ! From the middle of the axle, which lies on the wheelset's own axes.
-        across = 0.5_wp*wheelset%back_spacing + wheelset%tread_line
-        below = level%radius - level%z_wheel
-        origin = level%y_track - level%y_rail - shift
-        n = ceiling((side%wheel%y_last - side%wheel%y_first)/scan_step)
-        step = (side%wheel%y_last - side%wheel%y_first)/real(n, wp)
-        lowest = huge(lowest)
-        do i = 0, n
-            lowest = min(lowest, distance(place(i)))
-        end do
-        height = huge(height)
-        left = distance(place(0))
-        middle = distance(place(1))
-        do i = 2, n
-            right = distance(place(i))
-            ! A dip can lie below its lowest sample by no more than the samples differ.
-            if (middle <= left .and. middle <= right .and. max(left, right) < huge(left) &
-                .and. middle - max(left - middle, right - middle) <= lowest) then
-                at = dip(place(i - 2), place(i))
-                refined = distance(at)
-                if (refined < height) then
-                    height = refined
-                    contact%y_wheel = at
-                end if
-            end if
-            left = middle
-            middle = right
-        end do
-        if (.not. height <= lowest .or. .not. lowest < huge(lowest)) then
+        placing = placing_t(wheel_rolled, sine=sin(roll), cosine=cos(roll), &
+                            across=0.5_wp*wheelset%back_spacing + wheelset%tread_line, &
+                            below=level%radius - level%z_wheel, &
+                            origin=level%y_track - level%y_rail - shift)
+        call find_lowest_dip(side%wheel, side%rail, placing, side%wheel%y_first, &
+                             side%wheel%y_last, contact%y_wheel, height, found)
+        if (.not. found) then
             call set_status(status, st_no_contact, 'wheel and rail touch at the end of a profile ' &
                             // 'at the shift ' // trim(number_text(shift)) // ' mm and the roll ' &
                             // trim(number_text(roll)) // ' rad')
             return
         end if
         call profile_at(side%wheel, contact%y_wheel, contact%z_wheel, dz, d2z, status)
-        contact%radius = below + contact%z_wheel
-        contact%y_rail = on_rail(contact%y_wheel, contact%z_wheel)
-        contact%y_track = origin + shift + contact%y_rail
+        associate (p => placing)
+            contact%radius = p%below + contact%z_wheel
+            contact%y_rail = (p%across + contact%y_wheel)*p%cosine - contact%radius*p%sine &
+                             - p%origin
+            contact%y_track = p%origin + shift + contact%y_rail
+        end associate
         call profile_at(side%rail, contact%y_rail, contact%z_rail, dz, d2z, status)
         contact%gamma = atan(dz)
         ! What turns about the middle of the axle goes down by its way across and inwards by its
         ! depth below.
         z = contact%z_rail - height
-        slope = -(contact%y_rail + origin) - dz*z
-
-    contains
-
-        pure real(wp) function place(j)
-            integer, intent(in) :: j
-
-            place = min(side%wheel%y_first + real(j, wp)*step, side%wheel%y_last)
-        end function place
-
-        !> Where a point of the wheel is in the frame of the rail.
-        pure real(wp) function on_rail(y, depth)
-            real(wp), intent(in) :: y, depth
-
-            on_rail = (across + y)*cos(roll) - (below + depth)*sin(roll) - origin
-        end function on_rail
-
-        !> How deep the axle's middle lies if this point of the wheel touches.
-        pure real(wp) function distance(y) result(value)
-            real(wp), intent(in) :: y
-
-            real(wp) :: slope_there
-
-            call distance_and_slope(y, value, slope_there)
-        end function distance
-
-        pure subroutine distance_and_slope(y, value, slope_there)
-            real(wp), intent(in) :: y
-            real(wp), intent(out) :: value, slope_there
-
-            real(wp) :: z_wheel, z_rail, dz_wheel, dz_rail, d2z_there, y_rail
-            type(status_t) :: inside
-
-            call profile_at(side%wheel, y, z_wheel, dz_wheel, d2z_there, inside)
-            y_rail = on_rail(y, z_wheel)
-            value = huge(value)
-            slope_there = 0.0_wp
-            if (y_rail < side%rail%y_first .or. y_rail > side%rail%y_last) return
-            call profile_at(side%rail, y_rail, z_rail, dz_rail, d2z_there, inside)
-            value = z_rail - (across + y)*sin(roll) - (below + z_wheel)*cos(roll)
-            slope_there = dz_rail*(cos(roll) - dz_wheel*sin(roll)) - sin(roll) - dz_wheel*cos(roll)
-        end subroutine distance_and_slope
-
-        pure real(wp) function dip(from, to) result(at)
-            real(wp), intent(in) :: from, to
-
-            real(wp) :: first, last, value, slope_there
-            integer :: k
-
-            first = from
-            last = to
-            do k = 1, most_halvings
-                at = 0.5_wp*(first + last)
-                call distance_and_slope(at, value, slope_there)
-                if (slope_there < 0.0_wp) then
-                    first = at
-                else
-                    last = at
-                end if
-            end do
-        end function dip
+        slope = -(contact%y_rail + placing%origin) - dz*z
     end subroutine find_rolled_contact
 end module faststrip_geometry_contact_functions

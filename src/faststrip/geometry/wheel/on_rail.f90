@@ -49,10 +49,10 @@ module faststrip_geometry_wheel_on_rail
 
     !> One wheel and its rail, as a right pair; made once.
     type :: wheel_on_rail_t
-        type(profile_t) :: wheel           !! y = 0 at the tread line
+        type(profile_t) :: wheel           !! y = 0 at the nominal rolling circle
         type(profile_t) :: rail            !! inclined
-        real(wp) :: y_line = 0.0_wp        !! tread line from the wheelset's centre, mm
-        real(wp) :: radius = 0.0_wp        !! nominal radius, at the tread line, mm
+        real(wp) :: y_line = 0.0_wp        !! nominal rolling circle from the wheelset's centre, mm
+        real(wp) :: radius = 0.0_wp        !! nominal radius, mm
         real(wp) :: z_line = 0.0_wp        !! z of the profile there, mm
         real(wp) :: y_rail = 0.0_wp        !! the rail's origin in the track, mm
         real(wp) :: z_rail = 0.0_wp        !! the same, mm
@@ -103,7 +103,7 @@ contains
         call profile_at(wheel, 0.0_wp, pair%z_line, dz, d2z, status)
         if (is_error(status)) then
             call set_status(status, st_out_of_range, &
-                            'the wheel profile must reach its tread line, y = 0')
+                            'the wheel profile must reach its nominal rolling circle, y = 0')
             return
         end if
         call place_rail(wheel, rail, wheelset, track, pair%y_rail, status, pair%z_rail)

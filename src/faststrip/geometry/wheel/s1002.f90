@@ -1,8 +1,8 @@
 !> The S1002 wheel profile of EN 13715 and UIC 510-2 (flange height 28, flange thickness 32.5,
 !> tread 6.7 %), in its eight sections.
 !>
-!> `s` runs from the flange (negative) to the field side (positive) and is 0 at the mean tread
-!> line, 70 mm from the wheel back; `f(s)` points down, to the flange tip. The printed
+!> `s` runs from the flange (negative) to the field side (positive) and is 0 at the nominal
+!> rolling circle, 70 mm from the wheel back; `f(s)` points down, to the flange tip. The printed
 !> coefficients are used as they are: f jumps by -3.7e-5 mm at s = -26 and by +1.2e-4 mm at
 !> s = -35.
 module faststrip_geometry_wheel_s1002
@@ -13,7 +13,7 @@ module faststrip_geometry_wheel_s1002
     implicit none
     private
 
-    public :: s1002_at, s1002_first, s1002_last, s1002_joints
+    public :: s1002_at, s1002_first, s1002_last, s1002_joints, s1002_tip
 
     !> First s of the profile, mm. The definition ends at -70, where the back of the flange is
     !> vertical; the last micrometre is left out so that slopes stay finite.
@@ -21,6 +21,9 @@ module faststrip_geometry_wheel_s1002
 
     !> Last s of the profile, mm.
     real(wp), parameter :: s1002_last = 60.0_wp
+
+    !> The flange tip, mm: f rises before it and falls beyond, but for the jumps.
+    real(wp), parameter :: s1002_tip = -55.0_wp
 
     !> The joints of the sections A to H, from the field side to the flange, mm; a joint belongs
     !> to the section on its field side.
@@ -72,7 +75,7 @@ contains
         else if (s >= s1002_joints(6)) then
             call arc(-58.558326413_wp, 8.834924130_wp, 20.0_wp, s, f, df, d2f)
         else if (s >= s1002_joints(7)) then
-            call arc(-55.0_wp, 16.0_wp, 12.0_wp, s, f, df, d2f)
+            call arc(s1002_tip, 16.0_wp, 12.0_wp, s, f, df, d2f)
         else
             call arc(-49.5_wp, 9.519259302_wp, 20.5_wp, s, f, df, d2f)
         end if
