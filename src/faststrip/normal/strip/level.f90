@@ -79,19 +79,9 @@ contains
         type(contact_strips_t), intent(inout) :: strips !! of the solution, if it converged
         type(normal_result_t), intent(inout) :: result  !! of the solution; costs are added
 
-        type(attempt_t) :: start
         call begin(level, attempt)
-        start = attempt
         workspace%graded = .true.
         call couple(workspace, compliance, demand, level, attempt, strips, result)
-        if (attempt%converged) return
-        ! From far off edges that follow the ends alone succeed more often.
-        attempt = start
-        call forget_edges(workspace, .false.)
-        call forget_factors(workspace)
-        call couple(workspace, compliance, demand, level, attempt, strips, result)
-        if (attempt%converged) &
-            call let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
     end subroutine solve_together
 
     !> Strips between ends that are held, and the ends, in turn.
