@@ -3,7 +3,8 @@
 module faststrip_normal_strip_ends
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_closed, only: strip_influence_edges
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals, valley_below
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_slopes, level_intervals, &
+                                           valley_below
     use faststrip_normal_cells_overlap, only: overlap_tolerance
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
@@ -196,38 +197,49 @@ contains
                 if (solved%at(p)%y_to <= low .or. solved%at(p)%y_from >= y_to(i)) cycle
                 high = solved%at(p)%y_from
                 if (high > low) call scan(workspace, compliance, penetration, low, high, width, &
-                                          patches, changed)
+                                          -1, patches, changed)
                 low = max(low, solved%at(p)%y_to)
             end do
             if (y_to(i) > low) call scan(workspace, compliance, penetration, low, y_to(i), &
-                                         width, patches, changed)
+                                         width, merge(1, 0, low > y_from(i)), patches, changed)
         end do
         call sort_patches(patches)
         call join_met_patches(may_merge, patches, changed)
     end subroutine close_overlaps
 
     !> Scan one stretch outside the patches for overlap.
-    pure subroutine scan(workspace, compliance, penetration, low, high, width, patches, changed)
+    pure subroutine scan(workspace, compliance, penetration, low, high, width, way, patches, &
+                         changed)
         type(strip_workspace_t), intent(in) :: workspace
         real(wp), intent(in) :: compliance, penetration, low, high, width
+        integer, intent(in) :: way ! from the patch beside it: 1 to the right, -1 to the left; 0:
+                                   ! there is none
         type(patches_t), intent(inout) :: patches
         logical, intent(inout) :: changed
 
-        real(wp) :: dy, depth, deepest, h, inv2r
-        integer :: j, m, from
+        real(wp) :: dy, depth(max_scan + 1), deepest, h, inv2r
+        integer :: i, j, m, from
+        logical :: overlaps
         type(patch_t) :: seed
 
         m = max(2, min(max_scan, ceiling(2.0_wp*(high - low)/width)))
         dy = (high - low)/m
+        depth(:m + 1) = 0.0_wp
+        overlaps = way /= 0
+        do i = 1, m
+            j = merge(i, m + 1 - i, way >= 0)
+            depth(j) = depth_at(workspace, compliance, penetration, low + (j - 0.5_wp)*dy)
+            if (overlaps .and. depth(j) <= 0.0_wp) then
+                if (stays_apart(workspace%curve, low + (j - 0.5_wp)*dy, way*dy, m - i)) exit
+            end if
+            overlaps = depth(j) > 0.0_wp
+        end do
         from = 0
         deepest = 0.0_wp
         do j = 1, m + 1
-            depth = 0.0_wp
-            if (j <= m) depth = depth_at(workspace, compliance, penetration, &
-                                         low + (j - 0.5_wp)*dy)
-            if (depth > overlap_tolerance*penetration) then
+            if (depth(j) > overlap_tolerance*penetration) then
                 if (from == 0) from = j
-                deepest = max(deepest, depth)
+                deepest = max(deepest, depth(j))
             else if (from > 0) then
                 seed = patch_t(low + (from - 1)*dy, low + (j - 1)*dy, fewest_strips)
                 call gap_at(workspace%curve, 0.5_wp*(seed%y_from + seed%y_to), h, inv2r)
@@ -241,6 +253,25 @@ contains
             end if
         end do
     end subroutine scan
+
+    !> Do surfaces that are apart at a place stay apart, on the way from a patch or an overlap? They
+    !> do as far as the gap is convex: displacements beside all pressures are convex, so that the
+    !> overlap is concave, and it falls already.
+    pure logical function stays_apart(curve, y, dy, n)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: y  ! place, mm
+        real(wp), intent(in) :: dy ! from place to place, negative to the left, mm
+        integer, intent(in) :: n   ! places to come, at most `max_scan`
+
+        real(wp) :: at(0:max_scan), slope(0:max_scan)
+        integer :: j
+
+        do j = 0, n
+            at(j) = y + (j + merge(0, -n, dy > 0.0_wp))*abs(dy)
+        end do
+        call gap_slopes(curve, at(:n), slope(:n))
+        stays_apart = all(slope(1:n) >= slope(:n - 1))
+    end function stays_apart
 
     !> Overlap of the surfaces that the strips of the last pass deform, mm.
     pure real(wp) function depth_at(workspace, compliance, penetration, y) result(depth)
@@ -287,22 +318,36 @@ contains
         end do
         do k = 1, strips%n
             width = strips%y_right(k) - strips%y_left(k)
-            if (is_end(strips, k, k - 1)) then
-                do j = 1, size(beside)
-                    depth = max(depth, share*overlap_outside(curve, compliance, penetration, &
-                                                             strips, &
-                                                             strips%y_left(k) - beside(j)*width))
-                end do
-            end if
-            if (is_end(strips, k, k + 1)) then
-                do j = 1, size(beside)
-                    depth = max(depth, share*overlap_outside(curve, compliance, penetration, &
-                                                             strips, &
-                                                             strips%y_right(k) + beside(j)*width))
-                end do
-            end if
+            if (is_end(strips, k, k - 1)) depth = max(depth, beside_end(strips%y_left(k), -width))
+            if (is_end(strips, k, k + 1)) depth = max(depth, beside_end(strips%y_right(k), width))
         end do
         largest = depth/penetration
+
+    contains
+
+        !> Overlap beside an end of a patch, so far as it counts, mm.
+        pure real(wp) function beside_end(y, outwards)
+            real(wp), intent(in) :: y        ! the end, mm
+            real(wp), intent(in) :: outwards ! width of the end strip, negative to the left, mm
+
+            real(wp) :: overlap, at
+            integer :: i, n
+            logical :: overlaps
+
+            beside_end = 0.0_wp
+            overlaps = .true.
+            do i = 1, size(beside)
+                at = y + beside(i)*outwards
+                overlap = overlap_outside(curve, compliance, penetration, strips, at)
+                beside_end = max(beside_end, share*overlap)
+                n = size(beside) - i
+                if (overlaps .and. overlap <= 0.0_wp .and. n > 0) then
+                    if (stays_apart(curve, at, (beside(size(beside)) - beside(i))*outwards/n, n)) &
+                        exit
+                end if
+                overlaps = overlap > 0.0_wp
+            end do
+        end function beside_end
     end function overlap_left
 
     !> Does a patch end between two neighbouring strips?

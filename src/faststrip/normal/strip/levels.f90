@@ -26,8 +26,8 @@ module faststrip_normal_strip_levels
     public :: strip_options_t, strips_auto, strips_auto_most
     public :: solve_by_levels
 
-    !> As many strips as the maximum pressure and the penetration need to converge, 15 to 41, or to
-    !> be resolved, up to `strips_auto_most`.
+    !> As many strips as estimated errors of maximum pressure and penetration ask for, 15 to 41, or
+    !> as it takes to be resolved, up to `strips_auto_most`.
     !> Given: number of a kind.
     integer, parameter :: strips_auto = 0
     integer, parameter :: strips_auto_most = 81
@@ -46,8 +46,8 @@ module faststrip_normal_strip_levels
     integer, parameter :: auto_levels(5) = [15, 27, 41, 61, strips_auto_most]
     ! Tuned [strips]. Origin: chosen.
     integer, parameter :: auto_enough = 41 ! for a solution that is resolved
-    ! Tuned [1]. Origin: accuracy wanted: half a percent and a twentieth.
-    real(wp), parameter :: auto_pmax = 5.0e-3_wp, auto_penetration = 5.0e-4_wp ! relative change
+    ! Tuned [1]. Origin: accuracy wanted: half a percent and a tenth.
+    real(wp), parameter :: auto_pmax = 5.0e-3_wp, auto_penetration = 1.0e-3_wp ! estimated errors
 
     ! Tuned [strips]. Origin: chosen for time and errors of the lattice.
     integer, parameter :: most_fallback_strips = 31 ! its cost rises steeply, its accuracy does not
@@ -176,14 +176,12 @@ contains
         integer, intent(inout) :: n_converged ! strips of the last level that converged
 
         type(level_t) :: asked
-        type(normal_result_t) :: coarser
         integer :: first
 
         first = level
         do level = first, plan%n
             asked = level_t(plan%strips(level), maxval(plan%strips(:plan%n)), options%tolerance, &
                             way /= from_level .or. level > first)
-            coarser = result
             attempt%converged = .false.
             if (level > first .or. way < row_in_turn) &
                 call solve_together(workspace, compliance, demand, asked, attempt, strips, result)
@@ -194,10 +192,8 @@ contains
                 call solve_in_turn(workspace, compliance, demand, asked, attempt, strips, result)
             if (.not. attempt%converged) return
             n_converged = plan%strips(level)
-            if (.not. plan%is_auto .or. level <= first) cycle
-            if (.not. is_resolved(workspace, compliance, strips, result, &
-                                  options%resolution_limit)) cycle
-            if (is_enough(coarser, result)) return
+            if (.not. plan%is_auto) cycle
+            if (is_enough(workspace, compliance, strips, result, options%resolution_limit)) return
         end do
     end subroutine climb
 
@@ -222,32 +218,24 @@ contains
                                     dim=1, back=.true.))
     end function warm_level
 
-    !> Are so many strips enough that have changed so little?
-    pure logical function is_enough(coarser, result)
-        type(normal_result_t), intent(in) :: coarser, result ! of the last two levels
-
-        is_enough = result%strips_across >= auto_enough .or. &
-                    abs(result%pmax - coarser%pmax) <= auto_pmax*result%pmax .and. &
-                    abs(result%penetration - coarser%penetration) &
-                    <= auto_penetration*result%penetration
-    end function is_enough
-
-    !> Are the estimated errors not above a limit?
-    pure logical function is_resolved(workspace, compliance, strips, result, limit)
+    !> Are so many strips enough, by their estimated errors?
+    pure logical function is_enough(workspace, compliance, strips, result, limit)
         type(strip_workspace_t), intent(in) :: workspace
         real(wp), intent(in) :: compliance, limit
         type(contact_strips_t), intent(in) :: strips
         type(normal_result_t), intent(in) :: result
 
-        type(normal_errors_t) :: normal_errors
+        type(normal_errors_t) :: errors
         type(status_t) :: status
 
-        call estimate_strip_errors(workspace%curve, compliance, strips, result, normal_errors, &
-                                   status)
-        is_resolved = .not. is_error(status) &
-                      .and. max(normal_errors%est_err_penetration, normal_errors%est_err_pmax, &
-                                normal_errors%est_err_area) <= limit
-    end function is_resolved
+        call estimate_strip_errors(workspace%curve, compliance, strips, result, errors, status)
+        is_enough = .not. is_error(status) &
+                    .and. max(errors%est_err_penetration, errors%est_err_pmax, &
+                              errors%est_err_area) <= limit
+        if (result%strips_across >= auto_enough) return
+        is_enough = is_enough .and. errors%est_err_pmax <= auto_pmax &
+                    .and. errors%est_err_penetration <= auto_penetration
+    end function is_enough
 
     !> By which numbers of strips the asked one is reached.
     pure type(plan_t) function level_plan(strips_per_patch) result(plan)
