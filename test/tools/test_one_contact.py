@@ -20,6 +20,8 @@ STUDIES = {
     "src/faststrip/interop/classic.f90",
     # a map of creepages, from which searches of forces start
     "src/faststrip/tangential/force_map.f90",
+    # its rows, in the plane or on a curved surface
+    "src/faststrip/tangential/fastsim.f90",
     *(f"app/lab/{path}.f90" for path in (
         # a solver alone: its times from the last solution on, its floating-point flags, rounding
         "grid/normal", "grid/steps", "fuzz/run", "extremes/noise",

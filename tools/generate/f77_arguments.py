@@ -22,7 +22,7 @@ PAGE = ROOT / "docs" / "embedding.md"
 FACE = {"f77": "contacts", "f77_doubts": "doubts", "f77_wheelset": "wheelsets",
         "f77_wear": "friction, wear", "f77_heat": "temperatures", "f77_derivatives": "derivatives",
         "f77_given_forces": "forces given",
-        "f77_stress": "stresses",
+        "f77_stress": "stresses", "f77_wheelset_memory": "memory of a wheelset",
         "f77_geometry": "geometry", "f77_lookup": "tables",
         "f77_lookup_wheel": "tables of a wheel"}
 MARKS = re.compile(r"(?s)(<!-- f77: arguments -->\n).*?(<!-- end -->)")
