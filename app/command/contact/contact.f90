@@ -115,7 +115,7 @@ contains
         if (given(command, '--fields')) call put_field(writer(3), case%name, &
                                                        solver%workspace%field)
         if (given(command, '--gap')) call put_gap(writer(4), solver%workspace%solver%curve, &
-                                                  case%smoothing)
+                                                  case%smoothing, case%curved)
         if (given(command, '--profiles')) call put_profiles(writer(5), case, prepared)
         if (given(command, '--below')) call put_below(writer(6), points)
         if (given(command, '--plot')) &
@@ -140,7 +140,7 @@ contains
         call end_table(writer)
         call open_csv(writer, plot_file('gap.csv'), status)
         call fail_on_error(status)
-        call put_gap(writer, solver%workspace%solver%curve, case%smoothing)
+        call put_gap(writer, solver%workspace%solver%curve, case%smoothing, case%curved)
         call end_table(writer)
     end subroutine keep_files
 end module faststrip_command_contact

@@ -98,10 +98,11 @@ contains
     end subroutine clear_rigid_contact
 
     !> The gap, one row a point.
-    subroutine put_gap(writer, gap, smoothing)
+    subroutine put_gap(writer, gap, smoothing, curved)
         type(csv_writer_t), intent(inout) :: writer !! an open file
         type(gap_curve_t), intent(in) :: gap        !! as it was solved, mm, mm, 1/mm, rad
         real(wp), intent(in) :: smoothing           !! noise it was smoothed for, mm; 0: it was not
+        logical, intent(in) :: curved               !! with the inclination of its surfaces?
 
         character(len=15), parameter :: names(4) = [character(len=15) :: &
             'y_mm', 'h_mm', 'inv2R_per_mm', 'inclination_rad']
@@ -112,12 +113,11 @@ contains
         if (smoothing > 0.0_wp) &
             call put_comment(writer, 'smoothed for a noise of ' // &
                              trim(number_text(1.0e3_wp*smoothing)) // ' um, rms')
-        columns = 3
-        if (gap%inclination_is_known) columns = 4
+        columns = merge(4, 3, curved)
         call put_header(writer, names(:columns))
         do i = 1, gap%n
             call put_cells(writer, [gap%y(i), gap%h(i), gap%inv2r(i)])
-            if (gap%inclination_is_known) call put_cell(writer, gap%inclination(i))
+            if (curved) call put_cell(writer, gap%inclination(i))
             call end_row(writer)
         end do
     end subroutine put_gap

@@ -172,7 +172,7 @@ contains
                 if (.not. is_error(status)) call set_gap_curve(curve, points, status)
             end associate
             call fail_on_error(status)
-            call put_gap(gap, curve, 0.0_wp)
+            call put_gap(gap, curve, 0.0_wp, .false.)
             call end_table(gap)
         end do
         call end_table(writer)
