@@ -217,17 +217,19 @@ class Widths(InBrowser):
                          "lateral displacement y, mm")
 
     def test_rollers_and_a_plane_for_each_strip(self):
-        self.field("shift", "6")
-        self.wait(lambda: self.model("shift", "value") == 6, "the wheel is displaced")
-        for change, what in ((lambda: self.field("roller_radius", "500"), "a roller"),
+        # An answer may come late: what is waited for is no state of before, or that very one.
+        seen = [self.words("contact_numbers")]
+        for change, what in ((lambda: self.field("shift", "6"), "the wheel is displaced"),
+                             (lambda: self.field("roller_radius", "500"), "a roller"),
                              (lambda: self.element("planes", ".bk-btn:nth-child(2)").click(),
-                              "a plane for each strip"),
-                             (lambda: self.element("planes", ".bk-btn:nth-child(1)").click(),
-                              "one plane"),
-                             (lambda: self.field("roller_radius", "0"), "a rail")):
-            before = self.words("contact_numbers")
+                              "a plane for each strip")):
             change()
-            self.wait(lambda before=before: self.words("contact_numbers") != before, what)
+            self.wait(lambda: self.words("contact_numbers") not in seen, what)
+            seen.append(self.words("contact_numbers"))
+        self.element("planes", ".bk-btn:nth-child(1)").click()
+        self.wait(lambda: self.words("contact_numbers") == seen[2], "one plane")
+        self.field("roller_radius", "0")
+        self.wait(lambda: self.words("contact_numbers") == seen[1], "a rail")
         # What only the library knows is said at the field, too.
         self.turn(1)
         self.field("curvature", "2")
