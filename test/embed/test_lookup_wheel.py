@@ -277,13 +277,17 @@ class WheelFaces(HostTest):
         super().setUpClass()
         cls.package = cls.import_package()
         (cls.folder / "case.nml").write_text(CASE, encoding="utf-8")
-        subprocess.run([str(cls.installed.prefix / "bin" / "faststrip"), "lookup", "wheel",
-                        "case.nml", "-o", "wheel.fslt", "--error", "0.03", "--y", "-2:2", "--tests",
-                        "299"], cwd=cls.folder, check=True, stdin=subprocess.DEVNULL)
-        cls.table = cls.package.WheelLookup(cls.folder / "wheel.fslt")
+        cls.table = cls.make_table("wheel.fslt", "--error", "0.03", "--y", "-2:2", "--tests", "299")
         (cls.folder / "by_c.c").write_text(BY_C, encoding="utf-8")
         cls.shell("gcc -Wall -O1 by_c.c $(pkg-config --cflags --libs faststrip) -o by_c")
         cls.lines = cls.shell("./by_c").splitlines()
+
+    @classmethod
+    def make_table(cls, name, *options):
+        subprocess.run([str(cls.installed.prefix / "bin" / "faststrip"), "lookup", "wheel",
+                        "case.nml", "-o", name, *options], cwd=cls.folder, check=True,
+                       stdin=subprocess.DEVNULL)
+        return cls.package.WheelLookup(cls.folder / name)
 
     def test_fixed_form_fortran_has_the_bits_of_c(self):
         self.write("by_f77.f", BY_F77)
@@ -442,6 +446,27 @@ class WheelFaces(HostTest):
             self.assertLess(changes[3], 60.0)
             jumps += added[:, :3].max() > 100.0
         self.assertGreater(jumps, 4)
+
+    def test_strips_take_over_at_loads_that_friction_moves(self):
+        # Under yaw normal forces differ from the load: a table ends at another load than its own.
+        strips, wheelset = (self.package.Wheelset(estimate=False) for _ in range(2))
+        wheelset.use_lookup(self.make_table("yawed.fslt", "--error", "0.2", "--y", "-1.5:1.5",
+                                            "--yaw", "-0.004:0.004", "--load", "6e4:1e5",
+                                            "--tests", "299"))
+        beyond = 0
+        for end, way in ((1e5, 1.0), (6e4, -1.0)):
+            for yaw in (-0.003, 0.003):
+                added = []
+                for load in end * (1.0 + way * np.arange(-40, 41) * 1e-3):
+                    here = {"y": -1.0, "yaw": yaw, "speed": 2e4, "load": load, "roll": 0.0,
+                            "wheels": "right"}
+                    found, wanted = (of.solve(**here).force[0] for of in (wheelset, strips))
+                    added.append(abs(found - wanted).max())
+                    beyond += way * load > way * end and added[-1] > 50.0
+                self.assertEqual(added[-1], 0.0)
+                self.assertGreater(max(added), 100.0)
+                self.assertLess(abs(np.diff(added)).max(), 0.1 * max(added))
+        self.assertGreater(beyond, 5)
 
     def test_derivatives_where_strips_take_over(self):
         wheelset = self.package.Wheelset(estimate=False)

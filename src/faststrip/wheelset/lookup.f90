@@ -46,6 +46,9 @@ module faststrip_wheelset_lookup
     ! Tuned [rad]: yaw beyond a table's ends that counts as that of the end. Origin: chosen: above
     ! the steps of derivatives, and places move with it by less than 0.1 um.
     real(wp), parameter :: yaw_beside = 1.0e-7_wp
+    ! Tuned [1]: how far within a table's ends of load a search stays. Origin: chosen: the table's
+    ! share is next to nothing there.
+    real(wp), parameter :: within_ends = 1.0e-6_wp
     ! Tuned [1]: vertical force that is found, of the load. Origin: chosen: far below what tables
     ! miss.
     real(wp), parameter :: near_enough = 1.0e-9_wp
@@ -85,8 +88,8 @@ contains
         real(wp) :: miss, load_before, miss_before, slope
         integer :: i
 
-        ! Of normal forces: friction has its part of the load.
-        load = wanted
+        ! Of normal forces: friction has its part of the load, which may lie beyond the table.
+        load = within(wanted)
         load_before = 0.0_wp
         miss_before = -wanted
         do i = 1, most_tries
@@ -100,9 +103,22 @@ contains
             slope = (miss - miss_before)/(load - load_before)
             load_before = load
             miss_before = miss
-            load = load - miss/slope
+            load = within(load - miss/slope)
+            ! An end is held.
+            if (load == load_before) exit
         end do
         share = 0.0_wp
+
+    contains
+
+        pure real(wp) function within(load)
+            real(wp), intent(in) :: load
+
+            associate (axis => model%lookup%wheel%load)
+                within = max(axis%x(1)*(1.0_wp + within_ends), &
+                             min(load, axis%x(axis%n)*(1.0_wp - within_ends)))
+            end associate
+        end function within
     end subroutine look_up_at_load
 
     ! Where the table has the wheel, and its contacts there: from the height to the load, or back.
