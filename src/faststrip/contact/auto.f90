@@ -21,7 +21,8 @@ module faststrip_contact_auto
     use faststrip_normal_strips, only: contact_strips_t, copy_strips, last_of_patch, usual_strips
     use faststrip_tangential_force_errors, only: estimate_force_errors, &
                                                  errors_of_fitted
-    use faststrip_contact_case, only: contact_case_t, keeps_elements, wants_strip_forces
+    use faststrip_contact_case, only: contact_case_t, asked_t, keeps_elements, &
+                                        wants_strip_forces
     use faststrip_contact_clock, only: now, since, lap_t, start_lap, add_lap
     use faststrip_contact_grids, only: plan_of_finer, follow_on, most_grids
     use faststrip_contact_method, only: workspace_t, contact_result_t, normal_method_of, &
@@ -183,15 +184,10 @@ contains
         type(contact_case_t), intent(in) :: case
         type(search_t), intent(inout) :: search
 
-        search%case%demand_t = case%demand_t
-        search%case%material = case%material
-        search%case%mu = case%mu
-        search%case%friction = case%friction
-        search%case%thermal = case%thermal
-        search%case%creepage = case%creepage
-        search%case%given = case%given
-        search%case%asked%strip_forces = wants_strip_forces(case)
-        search%case%curved = case%curved
+        search%case%contact_terms_t = case%contact_terms_t
+        search%case%asked = asked_t(strip_forces=wants_strip_forces(case))
+        search%case%warm_start = .false.
+        search%case%estimate = .true.
         ! What is under resolved for the target is reported in the end.
         search%case%resolution_limit = huge(1.0_wp)
         search%case%force_limit = huge(1.0_wp)
