@@ -11,8 +11,8 @@
 module faststrip_contact_method_surface
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_material, only: combined_shear_modulus
-    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument, &
-                                     st_under_resolved
+    use faststrip_base_status, only: status_t, set_status, is_error, number_text, &
+                                     st_bad_argument, st_out_of_range, st_under_resolved
     use faststrip_contact_case, only: contact_case_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inclination, gap_inv2r, &
                                             first_point_from
@@ -40,14 +40,24 @@ module faststrip_contact_method_surface
 
 contains
 
-    !> Refuse a gap that does not tell how its surfaces are inclined.
+    !> Refuse a gap that does not tell how its surfaces are inclined, or where they turn over.
     pure subroutine check_surface(curve, status)
         type(gap_curve_t), intent(in) :: curve  !! that was set
-        type(status_t), intent(inout) :: status !! `st_bad_argument`; an error before stays
+        type(status_t), intent(inout) :: status
+            !! `st_bad_argument`, `st_out_of_range`; an error before stays
 
-        if (.not. curve%inclination_is_known) &
+        real(wp) :: steepest
+
+        if (.not. curve%inclination_is_known) then
             call set_status(status, st_bad_argument, 'a curved surface needs the inclination ' // &
                             'of the surfaces, which this gap does not have')
+            return
+        end if
+        steepest = maxval(abs(curve%inclination(:curve%n)))
+        if (steepest >= 0.5_wp*pi) &
+            call set_status(status, st_out_of_range, 'the inclination of a curved surface must ' &
+                            // 'be below pi/2, got ' // trim(number_text(steepest)) // &
+                            ' rad: degrees?')
     end subroutine check_surface
 
     !> Lay strips on the curved surface in the middle between both bodies, or back on the plane.
