@@ -353,6 +353,23 @@ class Interfaces(HostTest):
             with self.assertRaisesRegex(package.FaststripError, "stiffness"):
                 package.Wheelset(rail_stiffness=wrong)
 
+    def test_a_negative_number_of_bytes_is_named(self):
+        words = ("CALL FSLAST(IWORK, TEXT)", "INDEX(TEXT, 'not be negative, got -3')")
+        self.check_calls("""\
+      INTEGER IOPT(9), NPROF(4), IWORK(8), N, INFO
+      DOUBLE PRECISION PAR(9), SETUP(9), NONE(1)
+      CHARACTER BYTES(9)
+      CHARACTER*99 TEXT
+      DATA NPROF /-1, 0, -2, 0/
+""", (("made", 0, "CALL FSDFLT(IOPT, PAR); CALL FSWDFT(SETUP); "
+       "CALL FSWNEW(IOPT, PAR, SETUP, NPROF, NONE, NONE, IWORK, 8, INFO)"),
+      ("saved", 100, "CALL FSWSAV(IWORK, -3, BYTES, N, INFO)", "INFO + N"),
+      ("why", 26, *words),
+      ("cut", 121, "CALL FSWRST(IWORK, 9, BYTES, INFO)"),
+      ("restored", 100, "CALL FSWRST(IWORK, -3, BYTES, INFO)"),
+      ("again", 26, *words),
+      ("freed", 0, "CALL FSWFRE(IWORK, INFO)")))
+
     def test_saved_bytes_go_on_alike(self):
         package = self.import_package()
 
