@@ -349,7 +349,7 @@ class Interfaces(HostTest):
             self.assertAlmostEqual(found.force[0, 2], load, delta=1e-6 * load)
         air = sprung.solve(z=-1.0, roll=0.0)
         self.assertEqual((air.contacts, abs(air.force).max()), ((), 0.0))
-        for wrong in (-1.0, 6e4), (6e4, math.nan), (1.0, 2.0, 3.0):
+        for wrong in (-1.0, 6e4), (6e4, math.nan), (1e200, 1e200), (1.0, 2.0, 3.0):
             with self.assertRaisesRegex(package.FaststripError, "stiffness"):
                 package.Wheelset(rail_stiffness=wrong)
 

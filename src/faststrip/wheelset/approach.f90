@@ -12,7 +12,7 @@ module faststrip_wheelset_approach
     private
 
     public :: approach_search_t, start_search, take_force, is_found, is_near, usual_approach
-    public :: spring_share, spring_step
+    public :: spring_share, find_spring_step
     public :: largest_jump, near_enough, most_growth, equilibrium, most_tries
     public :: telling, hertz_power
     public :: roll_search_t, next_roll, most_roll_step
@@ -108,15 +108,15 @@ contains
 
     !> How far rails on springs go until forces and springs are in balance, mm: along each direction
     !> that has a spring.
-    pure function spring_step(slope, stiffness, left) result(step)
+    pure subroutine find_spring_step(slope, stiffness, left, step, singular)
         real(wp), intent(in) :: slope(:, :)  !! by which forces fall with the step, N/mm
         real(wp), intent(in) :: stiffness(:) !! of the springs, N/mm; 0: rigid
         real(wp), intent(in) :: left(:)      !! forces less those of the springs, N
-        real(wp) :: step(size(left))
+        real(wp), intent(out), contiguous :: step(:) !! 0 where there is none
+        logical, intent(out) :: singular     !! do forces not tell it?
 
         real(wp) :: both(size(left), size(left))
         integer :: i, pivot(size(left))
-        logical :: singular
 
         both = slope
         step = left
@@ -129,8 +129,12 @@ contains
             step(i) = 0.0_wp
         end do
         call lu_factor(size(left), both, pivot, singular)
-        if (.not. singular) call lu_solve(size(left), both, pivot, step)
-    end function spring_step
+        if (singular) then
+            step = 0.0_wp
+        else
+            call lu_solve(size(left), both, pivot, step)
+        end if
+    end subroutine find_spring_step
 
     !> Start a search.
     pure subroutine start_search(search, load, approach, tolerance, bracket, slope)

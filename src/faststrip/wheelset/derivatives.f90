@@ -17,7 +17,7 @@ module faststrip_wheelset_derivatives
                                              difference_step, finest
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, reversed_state, is_at_rest
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_wheelset_approach, only: spring_step
+    use faststrip_wheelset_approach, only: find_spring_step
     use faststrip_wheelset_height, only: set_outline, try_height, try_table, as_right
     use faststrip_wheelset_predict, only: yaw_lever
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
@@ -77,23 +77,31 @@ contains
             call find_of_wheel(model, workspace, side, result%wheel(side), near(1), &
                                derivatives(:, :, side), status)
             if (any(model%rail_stiffness > 0.0_wp)) &
-                call let_rail_follow(model%rail_stiffness, derivatives(:, :, side))
+                call let_rail_follow(model%rail_stiffness, derivatives(:, :, side), status)
         end do
         call move_alloc(near, workspace%near)
         call restore_environment(environment)
     end subroutine find_wheelset_derivatives
 
     ! A rail that goes with the force is for it a wheel that goes the other way.
-    pure subroutine let_rail_follow(stiffness, derivatives)
+    pure subroutine let_rail_follow(stiffness, derivatives, status)
         real(wp), intent(in) :: stiffness(2)
         real(wp), intent(inout) :: derivatives(:, :)
+        type(status_t), intent(inout) :: status
 
         real(wp) :: over_place(6, 2), change(2)
         integer :: i
+        logical :: singular
 
         over_place = derivatives(:, :2)
         do i = 1, n_columns
-            change = spring_step(over_place(2:3, :), stiffness, derivatives(2:3, i))
+            call find_spring_step(over_place(2:3, :), stiffness, derivatives(2:3, i), change, &
+                                  singular)
+            if (singular) then
+                derivatives = 0.0_wp
+                call set_status(status, st_no_convergence, 'rails on springs have no balance here')
+                return
+            end if
             derivatives(:, i) = derivatives(:, i) - matmul(over_place, change)
         end do
     end subroutine let_rail_follow

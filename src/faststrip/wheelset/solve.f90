@@ -8,6 +8,7 @@ module faststrip_wheelset_solve
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_friction, only: friction_at_angle, falls
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_size
     use faststrip_base_material, only: combined_shear_modulus
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      join_limitations, number_text, st_bad_argument, &
@@ -27,7 +28,7 @@ module faststrip_wheelset_solve
                                                  rolling_state, resting_state
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, usual_approach, most_tries, &
-                                           spring_share, spring_step, hertz_power
+                                           spring_share, find_spring_step, hertz_power
     use faststrip_wheelset_balance, only: solve_for_balance
     use faststrip_wheelset_guide, only: needs_guide, take_guide
     use faststrip_wheelset_height, only: set_outline, try_height, try_table
@@ -141,7 +142,7 @@ contains
     pure subroutine set_rail_stiffness(model, stiffness, status)
         type(wheelset_model_t), intent(inout) :: model !! changed unless there is an error
         real(wp), intent(in) :: stiffness(2)           !! along y and z, N/mm; 0: rigid
-        type(status_t), intent(out) :: status          !! `st_bad_argument`: below 0, or no number
+        type(status_t), intent(out) :: status          !! `st_bad_argument`: below 0, or too large
 
         call check_rail_stiffness(stiffness, status)
         if (.not. is_error(status)) model%rail_stiffness = stiffness
@@ -155,9 +156,10 @@ contains
 
         call clear_status(status)
         do i = 1, 2
-            if (.not. (stiffness(i) >= 0.0_wp .and. ieee_is_finite(stiffness(i)))) &
-                call set_status(status, st_bad_argument, 'the stiffness below a rail must be ' // &
-                                'at least 0 N/mm, got ' // number_text(stiffness(i)))
+            if (.not. (stiffness(i) >= 0.0_wp .and. stiffness(i) <= largest_size)) &
+                call set_status(status, st_bad_argument, 'the stiffness below a rail must be 0 ' &
+                                // 'to ' // trim(number_text(largest_size)) // ' N/mm, got ' // &
+                                number_text(stiffness(i)))
         end do
     end subroutine check_rail_stiffness
 
@@ -309,6 +311,7 @@ contains
         real(wp), dimension(n_directions) :: stiffness, u, force, left, before, step
         real(wp) :: slope(n_directions, n_directions)
         integer :: i, j, solutions(2)
+        logical :: singular
 
         result%wheel%n = 0
         result%wheel%solutions = 0
@@ -339,7 +342,8 @@ contains
                     slope(:, j) = slope(:, j) + before*step(j)/sum(step**2)
                 end do
             end if
-            step = spring_step(slope, stiffness, left)
+            call find_spring_step(slope, stiffness, left, step, singular)
+            if (singular) exit
             u = u + step
             before = left
         end do
