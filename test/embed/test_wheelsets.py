@@ -639,6 +639,32 @@ class Interfaces(HostTest):
         with self.assertRaisesRegex(package.FaststripError, "target must be None"):
             package.Wheelset(target="pmax")
 
+    def test_auto_under_yaw_is_strips_as_many_as_it_chose(self):
+        package = self.import_package()
+        methods = {"rail": "uic60", "points_per_strip": 41}
+        exact = package.Wheelset(strips_per_patch=41, **methods)
+        # Of the last one strips stand apart.
+        for y, yaw, curved in ((5.7, -0.01, False), (6.3, 0.02, True), (6.3, -0.02, False),
+                               (6.4, -0.03, False)):
+            state = {"y": y, "yaw": yaw, "speed": 2e4, "roll": 0.0, "wheels": "right"}
+            auto = package.Wheelset(normal="auto", target="pmax", tolerance=0.02, curved=curved,
+                                    **methods)
+            found = auto.solve(load=8e4, **state)
+            (one,) = found.contacts
+            self.assertGreater(one.strips_across, 6)
+            alike = package.Wheelset(strips_per_patch=one.strips_across, curved=curved, **methods)
+            (other,) = alike.solve(z=found.z[0], **state).contacts
+            for name in ("load", "fx", "fy", "mz", "force", "moment", "est_err_pmax", "est_err_mz"):
+                mine, wanted = (np.array(getattr(each, name)) for each in (one, other))
+                np.testing.assert_allclose(mine, wanted, rtol=0.0, atol=1e-5 * abs(wanted).max(),
+                                           err_msg=f"{name} {y} {yaw}")
+            # A larger error than was wanted is named, whoever found it.
+            self.assertEqual("target_missed" in one.limitations, one.est_err_pmax > 0.02)
+            if not curved and yaw > -0.03:
+                (there,) = exact.solve(load=8e4, **state).contacts
+                arm = 0.3 * there.load * math.sqrt(there.area / math.pi)
+                self.assertLess(abs(one.mz - there.mz), (one.est_err_mz + there.est_err_mz) * arm)
+
     def test_python_refuses_by_name(self):
         package = self.import_package()
         wheelset = package.Wheelset(strips_per_patch=5)

@@ -6,13 +6,15 @@ module faststrip_wheelset_wheel
     use faststrip_base_material, only: normal_compliance
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, add_limitation, &
                                      join_limitations, st_out_of_range, st_no_convergence, &
-                                     st_under_resolved
+                                     st_under_resolved, st_target_missed
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, solve_contact_forces, &
                                        estimate_contact, name_yield
     use faststrip_contact_method, only: workspace_t
-    use faststrip_contact_methods, only: normal_auto, normal_strip, tangential_linear, &
-                                         tangential_none
+    use faststrip_contact_methods, only: contact_methods_t, normal_auto, normal_strip, &
+                                         normal_hertz, tangential_linear, tangential_none
+    use faststrip_contact_target, only: target_error, name_target
+    use faststrip_contact_wanted, only: needs_forces
     use faststrip_normal_cells_lattice, only: lend_elements
     use faststrip_geometry_gap, only: gap_t
     use faststrip_wheelset_guide, only: needs_guide, take_guide
@@ -189,12 +191,20 @@ contains
 
         type(contact_case_t) :: case
         integer :: i
+        logical :: is_auto
 
-        ! Auto knows them already.
-        if (model%case%methods%normal == normal_auto) return
+        is_auto = model%case%methods%normal == normal_auto
         case = model%case
         case%by_load = .false.
+        if (is_auto) then
+            ! What is under resolved for the target is named, nothing else.
+            case%resolution_limit = huge(1.0_wp)
+            case%force_limit = huge(1.0_wp)
+        end if
         do i = 1, wheel%n
+            ! Auto knows them already but where strips have places.
+            if (is_auto .and. .not. workspace%contact(i)%strips%has_places) cycle
+            if (is_auto) case%methods = workspace%contact(i)%methods
             associate (contact => wheel%contact(i), figures => wheel%contact(i)%figures)
                 case%penetration = figures%normal%penetration
                 call take_motion(model, contact, case)
@@ -210,6 +220,10 @@ contains
                                              errors%est_err_area, case%resolution_limit, &
                                              contact%status)
                 end associate
+                if (is_auto .and. .not. btest(contact%status%limitations, st_target_missed)) &
+                    call name_target(case%wanted, target_error(case%wanted%target, case, figures), &
+                                     merge(model%case%force_limit, model%case%resolution_limit, &
+                                           needs_forces(case%wanted%target)), contact%status)
             end associate
         end do
     end subroutine estimate_wheel
@@ -373,7 +387,7 @@ contains
         if (is_error(contact%status)) return
         call place_on_wheel(pair, axes, frame%origin, contact)
         call take_motion(model, contact, case)
-        if (workspace%gap%runs .and. case%methods%normal /= normal_auto) then
+        if (workspace%gap%runs) then
             call solve_in_places(workspace%gap, workspace%contact(i), case, contact)
         else
             call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
@@ -383,17 +397,29 @@ contains
     end subroutine solve_one
 
     ! A contact whose strips have places along x: first pressures, then the forces where they are.
+    ! Auto tells as how many strips it is solved; elements of Kalker's methods have no such places.
     subroutine solve_in_places(gap, workspace, case, contact)
         type(frame_gap_t), intent(inout) :: gap
         type(workspace_t), intent(inout) :: workspace
         type(contact_case_t), intent(inout) :: case
         type(wheel_contact_t), intent(inout) :: contact
 
-        type(status_t) :: forces
+        type(contact_methods_t) :: asked
+        type(status_t) :: forces, chosen
         integer :: tangential, k
-        logical :: warm
+        logical :: warm, is_auto
 
         warm = case%warm_start
+        asked = case%methods
+        is_auto = asked%normal == normal_auto
+        if (is_auto) then
+            call solve_contact(workspace, case, contact%figures, chosen)
+            contact%status = chosen
+            if (is_error(chosen) .or. .not. any(workspace%solved_by == [normal_strip, &
+                                                                       normal_hertz])) return
+            case%methods = workspace%methods
+            case%warm_start = .true.
+        end if
         tangential = case%methods%tangential
         case%methods%tangential = tangential_none
         if (gap%apart > 0.0_wp .and. case%methods%normal == normal_strip &
@@ -404,12 +430,16 @@ contains
                 gap%ahead(:n) = gap%ahead(:n) - gap%apart*gap%skew(:n) &
                                 /(4.0_wp*gap%reach(:n)*(gap%inv2r(:n) + gap%bend(:n, 1)))
             end associate
-        else
+            if (is_auto .and. .not. is_error(contact%status)) contact%status = chosen
+        else if (.not. is_auto) then
             call solve_contact(workspace, case, contact%figures, contact%status)
         end if
         case%warm_start = warm
+        if (is_error(contact%status)) then
+            case%methods = asked
+            return
+        end if
         case%methods%tangential = tangential
-        if (is_error(contact%status)) return
         associate (strips => workspace%strips, n => gap%n)
             do k = 1, strips%n
                 strips%x0(k) = value_between(gap%y(:n), gap%ahead(:n), 0.5_wp &
@@ -418,6 +448,7 @@ contains
             strips%has_places = .true.
         end associate
         call solve_contact_forces(workspace, case, contact%figures, forces)
+        case%methods = asked
         if (is_error(forces)) then
             contact%status = forces
         else
