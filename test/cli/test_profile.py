@@ -156,6 +156,23 @@ class Profiles(ProgramTest):
         self.assertAlmostEqual(float(wheel[0]["Sd_mm"]), 32.5, delta=0.1)
         self.assertAlmostEqual(float(wheel[0]["Sh_mm"]), 28.0, delta=0.1)
 
+    def test_files_called_like_standard_profiles_are_told_from_them(self):
+        for words in (("--kind", "wheel"), ("--unit", "m"), ("--side", "left"), ("--section", "2"),
+                      ("--y-positive-to", "gauge"), ("--z-positive-to", "up"), ("--any-count",),
+                      ("--ignore-smoothing",), ("--tape-circle", "1")):
+            done, rows = self.rows("uic60", *words)
+            self.assertEqual((done.returncode, rows[0]["status"]), (1, "bad_argument"), words)
+            self.assertEqual(len(done.stderr.splitlines()), 1)
+            self.assertIn("standard profile", done.stderr)
+            self.assertIn("./uic60", done.stderr)
+        self.assertEqual(self.succeed("profile", "uic60", "--kind", "rail").stderr, "")
+        self.write("uic60", rail_text())
+        done = self.succeed("profile", "uic60", "--kind", "rail")
+        self.assertIn("not the file ./uic60", done.stderr)
+        done, rows = self.rows("./uic60", "--kind", "rail")
+        self.assertEqual((done.stderr, rows[0]["points"]), ("", "401"))
+        self.assertIn("./uic60", self.succeed("profile", "--help").stdout)
+
     def test_wear_against_a_nominal_rail(self):
         self.write("x.txt", rail_text())
         done = self.run_program("profile", "x.txt", "--nominal", "uic60")

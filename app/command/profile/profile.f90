@@ -52,7 +52,8 @@ contains
             command%about = trim(command%about) // newline
         end do
         command%about = command%about // &
-            'and standard ones by their names: s1002, cone20, cone40, uic60, 60e1, 54e1.' // &
+            'and standard ones by their names: s1002, cone20, cone40, uic60, 60e1, 54e1;' // &
+            newline // 'a file of such a name is ./uic60.' // &
             newline // 'Rows of a CSV describe them: y to the field side, z down, mm. Nothing ' // &
             'is repaired' // newline // 'by default; options are applied in the order below.' // &
             newline

@@ -2,7 +2,7 @@
 !> touched of it, the measures of its flange, and words for what was left out or done.
 module faststrip_files_profile_taken
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error
+    use faststrip_base_status, only: status_t, set_status, is_error, st_bad_argument
     use faststrip_geometry_flange, only: flange_t, measure_flange
     use faststrip_geometry_profile, only: profile_t, make_curve_profile
     use faststrip_geometry_touchable, only: touchable_t, touchable_words, body_wheel, body_rail
@@ -33,9 +33,11 @@ contains
         type(cleaning_t), intent(in) :: cleaning       !! what is to be done
         type(taken_profile_t), intent(out) :: taken    !! the profile
         type(status_t), intent(out) :: status          !! those of `read_profile`, `clean`,
-                                                       !! `make_curve_profile`, with the file
+                                                       !! `make_curve_profile`, with the file;
+                                                       !! `st_bad_argument`: a standard profile
+                                                       !! that is described like a file
 
-        logical :: is_standard
+        logical :: is_standard, is_file
 
         taken%words = ''
         taken%done = ''
@@ -43,7 +45,15 @@ contains
         call check_cleaning(cleaning, status)
         if (is_error(status)) return
         call standard_profile(path, taken%points, is_standard)
-        if (.not. is_standard) call read_profile(path, options, taken%points, status)
+        if (.not. is_standard) then
+            call read_profile(path, options, taken%points, status)
+        else if (describes_file(options, taken%points%kind)) then
+            call set_status(status, st_bad_argument, path // ' is a standard profile: what ' // &
+                            'tells how a file is read is for ./' // path)
+        else
+            inquire (file=path, exist=is_file)
+            if (is_file) taken%points%notes = 'the standard profile, not the file ./' // path
+        end if
         if (is_error(status)) return
         call clean(cleaning, taken%points, taken%done, status)
         if (.not. is_error(status)) call judge(cleaning, taken, status)
@@ -52,6 +62,20 @@ contains
         if (len(taken%words) > 0) taken%words = '; ' // taken%words
         taken%words = taken%done // taken%words
     end subroutine take_profile
+
+    ! Is something said that counts of files only?
+    pure logical function describes_file(options, kind)
+        type(profile_options_t), intent(in) :: options
+        integer, intent(in) :: kind ! of the standard profile
+
+        type(profile_options_t), parameter :: usual = profile_options_t()
+
+        describes_file = options%any_count .or. options%ignore_smoothing &
+            .or. options%has_tape_circle .or. abs(options%unit_mm) > 0.0_wp &
+            .or. all(options%kind /= [usual%kind, kind]) &
+            .or. any([options%section, options%side, options%y_sense, options%z_sense] &
+                     /= [usual%section, usual%side, usual%y_sense, usual%z_sense])
+    end function describes_file
 
     subroutine judge(cleaning, taken, status)
         type(cleaning_t), intent(in) :: cleaning
