@@ -15,8 +15,7 @@ module faststrip_normal_strip_level
     use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
                                               free_ends, drop_slivers
     use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, position_strips, &
-                                            remember, forget_edges, forget_factors, &
-                                            look_for_edges, take_edges, know_edges
+                                            remember, forget_edges
     use faststrip_normal_types, only: normal_result_t, demand_t, cost_t
     implicit none
     private
@@ -47,11 +46,6 @@ module faststrip_normal_strip_level
     ! other: what is left then is far below what the ends' moves change.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: far_tolerance = 0.1_wp, near_tolerance = 1.0e-2_wp
-    ! Tuned [1]: of the way of edges to where they belong, where all of it is too far. Origin:
-    ! chosen.
-    real(wp), parameter :: first_part = 0.25_wp
-    ! Tuned [tries]: at letting edges follow the gap. Origin: chosen: all at once, then three parts.
-    integer, parameter :: most_parts = 4
     ! Tuned [1]. Origin: safeguard: above rounding.
     real(wp), parameter :: sliver = 1.0e-10_wp ! of the gap's range: too narrow for a patch
 
@@ -85,19 +79,9 @@ contains
         type(contact_strips_t), intent(inout) :: strips !! of the solution, if it converged
         type(normal_result_t), intent(inout) :: result  !! of the solution; costs are added
 
-        type(attempt_t) :: start
         call begin(level, attempt)
-        start = attempt
         workspace%graded = .true.
         call couple(workspace, compliance, demand, level, attempt, strips, result)
-        if (attempt%converged) return
-        ! From far off edges that follow the ends alone succeed more often.
-        attempt = start
-        call forget_edges(workspace, .false.)
-        call forget_factors(workspace)
-        call couple(workspace, compliance, demand, level, attempt, strips, result)
-        if (attempt%converged) &
-            call let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
     end subroutine solve_together
 
     !> Strips between ends that are held, and the ends, in turn.
@@ -174,7 +158,6 @@ contains
         ! Passes after the best have left other patches.
         attempt = best
         attempt%converged = .true.
-        call let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
     end subroutine solve_in_turn
 
     !> The tolerance of the next pass, by how far the ends have moved in this one.
@@ -189,50 +172,6 @@ contains
         if (moved < end_tolerance .or. pass >= max_coarse_passes) next_tolerance = tolerance
         next_tolerance = max(next_tolerance, tolerance)
     end function next_tolerance
-
-    !> A solution whose edges follow the ends alone: let them follow the gap, at once or part by
-    !> part. Where that does not succeed the last solution stays.
-    subroutine let_edges_follow(workspace, compliance, demand, level, attempt, strips, result)
-        type(strip_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: compliance
-        type(demand_t), intent(in) :: demand
-        type(level_t), intent(in) :: level
-        type(attempt_t), intent(inout) :: attempt
-        type(contact_strips_t), intent(inout) :: strips
-        type(normal_result_t), intent(inout) :: result
-
-        type(attempt_t) :: last
-        real(wp) :: share, moved
-        integer :: i
-
-        ! More strips will follow it anyway.
-        if (level%strips_per_patch < level%most_strips) return
-        share = 1.0_wp
-        do i = 1, most_parts
-            last = attempt
-            call look_for_edges(workspace, attempt%patches, moved)
-            call take_edges(workspace, share)
-            call couple(workspace, compliance, demand, level, attempt, strips, result)
-            if (attempt%converged) then
-                if (workspace%graded) return
-                share = min(1.0_wp, 2.0_wp*share)
-                cycle
-            end if
-            ! The next start is from what was handed over.
-            attempt = last
-            share = first_part*share
-            associate (now => workspace%strips, n => strips%n)
-                call know_edges(workspace, attempt%patches, strips%y_right(:n))
-                now%n = n
-                now%penetration = attempt%penetration
-                now%p0(:n) = strips%p0(:n)
-                now%half_length(:n) = strips%half_length(:n)
-            end associate
-            call position_edges(workspace, attempt%patches)
-            call remember(workspace, attempt%patches)
-            call forget_factors(workspace)
-        end do
-    end subroutine let_edges_follow
 
     !> A neighbour of the last solution, for derivatives: the same patches, strips and edges, solved
     !> to the last digits. So it differs smoothly from it: nothing is looked for, and no edge

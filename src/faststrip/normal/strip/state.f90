@@ -17,7 +17,6 @@ module faststrip_normal_strip_state
     public :: strip_workspace_t, reserve_strip_workspace, set_strip_gap
     public :: position_edges, position_strips, remember, mirror_old, flattest
     public :: newton_workspace_t, forget_edges, forget_factors, look_for_edges, renew_edges
-    public :: take_edges, know_edges
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
     !> Tuned [1/mm]. Origin: safeguard.
@@ -274,39 +273,6 @@ contains
             last = last + n
         end do
     end subroutine look_for_edges
-
-    !> Edges go so far to where `look_for_edges` found that they belong; the next strips have them.
-    pure subroutine take_edges(workspace, share)
-        type(strip_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: share !! of the way; with all of it they follow the gap from now on
-
-        integer :: n
-
-        n = workspace%strips%n
-        workspace%graded = share >= 1.0_wp
-        workspace%edge(:n) = workspace%edge(:n) &
-                             + share*(workspace%new_edge(:n) - workspace%edge(:n))
-    end subroutine take_edges
-
-    !> Edges are those of these strips, and follow the ends alone.
-    pure subroutine know_edges(workspace, patches, y_right)
-        type(strip_workspace_t), intent(inout) :: workspace
-        type(patches_t), intent(in) :: patches !! of the strips
-        real(wp), intent(in) :: y_right(:)     !! right edges of all strips, mm
-
-        integer :: p, first, last
-
-        workspace%graded = .false.
-        last = 0
-        do p = 1, patches%n
-            first = last + 1
-            last = last + patches%at(p)%n_strips
-            associate (from => patches%at(p)%y_from, to => patches%at(p)%y_to)
-                workspace%n_graded(p) = patches%at(p)%n_strips
-                workspace%edge(first:last) = (2.0_wp*y_right(first:last) - (from + to))/(to - from)
-            end associate
-        end do
-    end subroutine know_edges
 
     !> Cut patches into strips where `look_for_edges` found that they belong; pressures and lengths
     !> are taken over.
