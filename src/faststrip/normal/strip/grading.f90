@@ -22,8 +22,8 @@ module faststrip_normal_strip_grading
 
     ! Tuned [1]. Origin: chosen for the errors of pmax and area.
     real(wp), parameter :: end_grading = 0.7_wp ! towards the ends; 0: even strips, 1: as the sine
-    ! Tuned [1]. Origin: chosen for the errors of pmax and forces: from 1.6 to 3.2 they change little
-    ! on 784 contacts of 15 kinds; strips are narrower by 2.5 at most.
+    ! Tuned [1]. Origin: chosen for the errors of pmax and forces: from 1.6 to 3.2 they change
+    ! little on 784 contacts of 15 kinds; strips are narrower by 2.5 at most.
     real(wp), parameter :: most_narrowed = 2.3_wp ! largest V
     ! Tuned [strips]: d. Origin: chosen for the errors of pmax; from 2.6 to 3.2 they change little.
     real(wp), parameter :: reach = 3.0_wp
@@ -85,7 +85,8 @@ contains
 
     contains
 
-        !> sqrt(1 + V^2) between places j - 1 and j. At the ends of the patch the means are those of less.
+        !> sqrt(1 + V^2) between places j - 1 and j. At the ends of the patch means are those of
+        !> less.
         pure real(wp) function narrowing(j)
             integer, intent(in) :: j
 
