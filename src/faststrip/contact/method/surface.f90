@@ -59,7 +59,7 @@ contains
         real(wp) :: y, z
         integer :: k
 
-        strips%is_curved = case%curved .and. curve%n > 0
+        strips%is_curved = case%curved
         if (.not. strips%is_curved) return
         strips%pitch = case%pitch
         strips%follow_outline = case%pitch > 0.0_wp
