@@ -264,11 +264,13 @@ class Command(ExploreTest):
             self.assertIn(word, done.stdout)
 
     def test_without_bokeh_it_says_what_to_install(self):
-        self.write("bokeh.py", "raise ModuleNotFoundError('no bokeh', name='bokeh')\n")
-        self.addCleanup((self.folder / "bokeh.py").unlink)
-        done = self.explore(PYTHONPATH=f"{self.folder}:{ROOT / 'python'}")
-        self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())), (1, "", 1))
-        self.assertIn("pip install 'faststrip[explore]'", done.stderr)
+        for name in ("bokeh", "f90nml"):
+            self.write(f"{name}.py", f"raise ModuleNotFoundError('no {name}', name='{name}')\n")
+            done = self.explore(PYTHONPATH=f"{self.folder}:{ROOT / 'python'}")
+            (self.folder / f"{name}.py").unlink()
+            self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())),
+                             (1, "", 1))
+            self.assertIn(f"{name} is missing: pip install 'faststrip[explore]'", done.stderr)
 
     def test_case_files_of_the_examples(self):
         casefile = self.part("casefile")
