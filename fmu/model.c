@@ -306,6 +306,7 @@ int restore_state(model *m, const void *kept)
         faststrip_wheelset_free(&m->wheelset);
     m->now = s->now;
     m->last = ELSEWHERE;
+    m->slopes_are = UNKNOWN;
     if (s->size == sizeof(state)) return STATUS_OK;
     status = make_wheelset(m);
     if (status != STATUS_OK) return status;
@@ -401,15 +402,13 @@ static int find_difference(model *m, difference *along)
            : refuse(m, STATUS_DISCARD, "no solution beside the inputs has a derivative");
 }
 
-int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsigned int *inputs,
-                     size_t k, const double *seeds, double *derivatives)
+static int find_slopes(model *m, const unsigned int *outputs, size_t n,
+                       const unsigned int *inputs, size_t k, const double *seeds,
+                       double *derivatives)
 {
     difference all = {.distance = 0.0}, others = all, *along;
     const variable *of;
-    int status;
-    if (m->last != HERE) m->now.is_solved = 0;
-    status = solve_model(m);
-    if (status != STATUS_OK) return status;
+    int status = STATUS_OK;
     for (size_t i = 0; i < k; i++) {
         status = find_variable(m, inputs[i], REAL, &of);
         if (status != STATUS_OK) return status;
@@ -419,12 +418,15 @@ int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsi
     }
     for (int j = 0; j < N_STATE; j++)
         if (column_of(j) < 0) others.direction[j] = all.direction[j];
-    /* Of the library where z and roll are given, unless something comes or goes just there. One
-     * call for all: it leaves the wheelset other than it was, in the last digits. */
-    if (m->slopes_are == UNKNOWN)
+    /* Of the library where z and roll are given, unless something comes or goes just there. */
+    if (m->slopes_are == UNKNOWN) {
+        if (m->last != HERE) m->now.is_solved = 0;
+        status = solve_model(m);
+        if (status != STATUS_OK) return status;
         m->slopes_are = m->now.demand.kind == FASTSTRIP_BY_POSITION
                         && faststrip_wheelset_get_derivatives(m->wheelset, m->slopes)
                            < FASTSTRIP_FIRST_ERROR ? KNOWN : NONE;
+    }
     for (size_t i = 0; i < n; i++) {
         int row;
         status = find_variable(m, outputs[i], REAL, &of);
@@ -443,4 +445,21 @@ int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsi
                 derivatives[i] += m->slopes[row / 6][row % 6][column_of(j)] * all.direction[j];
     }
     return STATUS_OK;
+}
+
+/* What is solved for them is taken back: outputs and later solutions stay those of before. */
+int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsigned int *inputs,
+                     size_t k, const double *seeds, double *derivatives)
+{
+    void *kept = NULL;
+    int found = solve_model(m), status, slopes_are;
+    if (found != STATUS_OK) return found;
+    status = keep_state(m, &kept);
+    if (status != STATUS_OK) return status;
+    found = find_slopes(m, outputs, n, inputs, k, seeds, derivatives);
+    slopes_are = m->slopes_are;
+    status = restore_state(m, kept);
+    m->slopes_are = slopes_are;
+    free(kept);
+    return found != STATUS_OK ? found : status;
 }

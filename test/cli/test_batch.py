@@ -2,6 +2,7 @@
 
 import csv
 import importlib
+import re
 import statistics
 
 from cli_program import (
@@ -32,6 +33,13 @@ class Batch(ProgramTest):
     def setUp(self):
         super().setUp()
         self.write("gaps/g.csv", gap_text(parabola, n=301))
+
+    def test_help_names_the_columns_that_the_page_has(self):
+        page = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
+        section = page.split("\n## Batch files\n")[1].split("\n## ")[0]
+        told = self.run_program("batch", "--help").stdout
+        for name in re.findall(r"`(\w+)`", re.sub(r"\(.*?\)", "", section, flags=re.DOTALL)):
+            self.assertRegex(told, rf"\b{name}\b")
 
     def batch_of_gaps(self, *words):
         rows = reference()

@@ -327,6 +327,28 @@ class Units(HostTest):
             np.testing.assert_allclose(found, slopes[:, 2, 1], rtol=0.05)
             self.assertEqual(self.failing(unit.derivatives, FORCES, ["mu"], [1.0]), 3)
 
+    def test_derivatives_change_nothing_that_follows(self):
+        for version, demand in ((2, {}), (3, {}), (3, {"demand": 2, "axle_load": 1.2e5})):
+            unit = self.unit(version).start(**demand)
+            unit.set(self.here(y=1.98))
+            unit.get(FORCES)
+            state = unit.state()
+            unit.set(self.here())
+            before = list(unit.get(FORCES))
+            after = unit.state()
+            expected = self.walk(unit)
+            expected_slopes = {}
+            for start, name in ((state, "yaw"), (after, "yaw"), (after, "rail_right.y")):
+                unit.restore(start)
+                unit.set(self.here())
+                slopes = unit.derivatives(FORCES, [name], [1.0])
+                self.assertGreater(np.abs(slopes).max(), 1e3)
+                np.testing.assert_allclose(slopes, expected_slopes.setdefault(name, slopes),
+                                           rtol=1e-4)
+                self.assertEqual(list(unit.get(FORCES)), before)
+                self.assertEqual(self.walk(unit), expected)
+                unit.derivatives(FORCES, [name], [1.0])  # elsewhere
+
     def test_a_wrong_token_is_refused(self):
         for version in (2, 3):
             about = self.fmpy.read_model_description(self.files[version])

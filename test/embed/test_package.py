@@ -224,6 +224,8 @@ class Package(unittest.TestCase):
         with open(ROOT / "pyproject.toml", "rb") as file:
             cmake = tomllib.load(file)["tool"]["scikit-build"]["cmake"]["version"]
         self.assertIn(f"cmake ({cmake.replace('>=', '>= ')})", texts["control"])
+        # The optimized release, not debhelper's build type None.
+        self.assertIn("\tdh_auto_configure -- -DCMAKE_BUILD_TYPE=Release\n", texts["rules"])
         source, target = texts["python3-faststrip.install"].split()
         with tarfile.open(self.source) as archive:
             self.assertIn(f"{self.source.name[:-len('.tar.gz')]}/{source}/__init__.py",

@@ -170,8 +170,8 @@ def choices():
 
 def input_of_figures():
     """What the hosts that print every figure read: the contacts of their test."""
-    sys.path[:0] = [str(ROOT / place) for place in ("test", "test/embed",
-                                                "tools/docs", "tools/measure")]
+    sys.path[:0] = [str(ROOT / place)
+                    for place in ("test", "test/embed", "tools/docs", "tools/measure")]
     return importlib.import_module("test_figures").input_text()
 
 

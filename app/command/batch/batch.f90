@@ -158,6 +158,8 @@ contains
                 // new_line('a') &
                 // 'Columns mu_y_mm, mu_table: places and coefficients of friction across the' &
                 // ' contact,' // new_line('a') // 'in quotes: "-5, 0, 5".' // new_line('a') &
+                // 'Column curved: .true. for rows whose gap file has inclination_rad, as' &
+                // ' --curved.' // new_line('a') &
                 // 'Other columns are carried through. A row that fails gets its status word and' &
                 // new_line('a') // 'empty figures; the others go on, and the exit code is 1.' &
                 // new_line('a')

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from .._contact import library_version
 from .._library import ProgramNotFound, library
 from .._results import Result
-from .case import RADIUS, STANDARD, CaseError, Shape
+from .case import RADIUS, STANDARD, Shape
 from .solving import METHODS, Answer, Outcome
 
 Array = npt.NDArray[np.float64]
@@ -34,6 +34,7 @@ FIGURES = (("penetration_mm", "penetration"), ("area_mm2", "area"), ("pmax_MPa",
            ("est_err_Mz", "est_err_mz"))
 CASE_COLUMNS = ("wheel", "rail", "yw_mm", "yaw_rad", "Q_N", "N_N", "gamma_rad", "cksi", "ceta",
                 "cphi_rad_per_mm", "mu")
+GAP = ("y_mm", "h_mm", "inv2R_per_mm", "inclination_rad")
 METHOD_NAMES = {**METHODS, "norm": ("norm", "tang")}
 
 
@@ -82,26 +83,21 @@ def put_beside(kind: str, shape: Shape, files: Dict[str, bytes]) -> str:
 def case_files(outcome: Outcome) -> Dict[str, bytes]:
     """The case file and what has to stand beside it, by their names.
 
-    A yawed contact is given by its gap, as the program's ``contact`` knows no yaw; CaseError where
-    each strip has a plane of its own, which such a gap does not say.
+    A yawed contact is given by its gap, as the program's ``contact`` knows no yaw.
     """
     case, geometry = outcome.case, outcome.geometry
-    if case.yaw and case.is_curved:
-        raise CaseError("a yawed contact with a plane for each strip is no case of the program: "
-                        "gap files have no inclination")
     files: Dict[str, bytes] = {}
     direction = "vertical" if case.is_vertical else "normal"
     lines = [f"! Written by faststrip-explore {library_version()}: one right wheel on one right "
              "rail.", "! faststrip contact solves it as the page does."]
     if case.yaw and geometry is not None:
-        gap = f"{NAME}_gap.csv"
-        rows = "".join(f"{y!r},{h!r},{a!r}\n"
-                       for y, h, a in zip(*(row.tolist() for row in geometry.gap[:3])))
-        files[gap] = ("y_mm,h_mm,inv2R_per_mm\n" + rows).encode("ascii")
+        name = f"{NAME}_gap.csv"
+        rows = zip(*(values.tolist() for values in geometry.gap))
+        files[name] = "".join(",".join(map(str, row)) + "\n" for row in (GAP, *rows)).encode()
         lines += [f"! The gap of {case.wheel.label} on {case.rail.label}, shifted by "
                   f"{case.shift!r} mm and yawed by {case.yaw!r} rad,",
                   f"! under a vertical load of {case.load!r} N.",
-                  "&contact", f"  name = {quoted(NAME)}", f"  gap_file = {quoted(gap)}",
+                  "&contact", f"  name = {quoted(NAME)}", f"  gap_file = {quoted(name)}",
                   f"  load_N = {geometry.load!r}", "/"]
     else:
         lines += ["&contact", f"  name = {quoted(NAME)}", f"  load_N = {case.load!r}",

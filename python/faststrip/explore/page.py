@@ -381,12 +381,7 @@ class Page:
                               "content": [base64.b64encode(content).decode("ascii")]}
 
     def save_case(self) -> None:
-        try:
-            name, content = packed(case_files(self.outcome))
-        except CaseError as problem:
-            self.say(str(problem))
-            return
-        self.send(name, content, "application/octet-stream")
+        self.send(*packed(case_files(self.outcome)), "application/octet-stream")
 
     def save_numbers(self) -> None:
         self.send("explore.csv", numbers_csv(self.outcome).encode("utf-8"), "text/csv")
@@ -419,11 +414,7 @@ class Page:
         if self.outcome.geometry is None:
             self.say("there is no contact that NORM + TANG could solve")
             return
-        try:
-            files, motion = case_files(self.outcome), self.outcome.motion
-        except CaseError as problem:
-            self.say(str(problem))
-            return
+        files, motion = case_files(self.outcome), self.outcome.motion
         self.run = run = Program()
         self.norm.label = "NORM + TANG runs: end it"
 

@@ -17,7 +17,6 @@ PORT = 5173
 HOST = "127.0.0.1"
 MOST_PORTS = 65535
 MOST_BYTES = 20 * 1024 * 1024  # of a message: an uploaded file
-MISSING = ("faststrip-explore: Bokeh is missing: pip install 'faststrip[explore]' (or bokeh)")
 
 
 def parser() -> argparse.ArgumentParser:
@@ -46,9 +45,16 @@ def parser() -> argparse.ArgumentParser:
 def main(words: Optional[List[str]] = None) -> int:
     """Serve the page until Ctrl-C; the exit code."""
     options = parser().parse_args(words)
-    from . import casefile
     from .case import Case, CaseError, checked, find_shape
 
+    try:
+        from . import casefile, page
+    except ModuleNotFoundError as problem:
+        if (problem.name or "").partition(".")[0] not in ("bokeh", "tornado", "f90nml"):
+            raise
+        print(f"faststrip-explore: {problem.name} is missing: pip install 'faststrip[explore]' "
+              "(or bokeh f90nml)", file=sys.stderr)
+        return 1
     try:
         take_files(options)
         case = casefile.read_case(options.case) if options.case else Case()
@@ -61,13 +67,6 @@ def main(words: Optional[List[str]] = None) -> int:
         checked(case)
     except (CaseError, FaststripError) as problem:
         print(f"faststrip-explore: {problem}", file=sys.stderr)
-        return 1
-    try:
-        from . import page
-    except ModuleNotFoundError as problem:
-        if (problem.name or "").partition(".")[0] not in ("bokeh", "tornado"):
-            raise
-        print(MISSING, file=sys.stderr)
         return 1
     return serve(lambda document: page.Page(document, case), options.port,
                  not options.no_browser)

@@ -87,6 +87,7 @@ contains
         workspace%field%n = 0
         workspace%strip_forces%n = 0
         workspace%solver%curve%n = 0
+        workspace%solver%curve%inclination_is_known = .false.
         call clear_steps(workspace%steps)
         call hertz_strips(hertz, ellipse_strips(methods), workspace%strips, status)
         if (is_error(status)) return
@@ -224,6 +225,8 @@ contains
 
         call hold_environment(environment)
         call check_methods(workspace, case%methods, normal, tangential, status)
+        if (case%curved .and. .not. is_error(status)) &
+            call check_surface(workspace%solver%curve, status)
         if (.not. is_error(status)) then
             turn = conformal_turn(workspace, result)
             if (turn > 0.0_wp) call shift_pressure_errors(-turn**2, result)

@@ -221,7 +221,7 @@ contains
                 call clear_status(status)
             else
                 call check_rolling_circles(wheelset%back_spacing, wheelset%tread_line, &
-                                        track%rail_distance + 2.0_wp*y_gauge, status)
+                                           track%rail_distance + 2.0_wp*y_gauge, status)
             end if
         else if (.not. is_error(status)) then
             y_origin = 0.5_wp*track%gauge - y_gauge

@@ -250,12 +250,11 @@ contains
 
         character(len=message_length) :: words
         real(wp) :: h_left, h_right, inv2r, slope, turn
-        integer :: k, every
+        integer :: k
 
         slope = 0.0_wp
-        every = 1
-        if (present(is_ellipse)) every = max((strips%n - 1)/2, 1)
-        do k = 1, strips%n, every
+        do k = 1, strips%n
+            if (present(is_ellipse) .and. all(k /= [1, (strips%n + 1)/2, strips%n])) cycle
             call gap_at(curve, strips%y_left(k), h_left, inv2r)
             call gap_at(curve, strips%y_right(k), h_right, inv2r)
             slope = max(slope, abs(h_right - h_left)/(strips%y_right(k) - strips%y_left(k)))

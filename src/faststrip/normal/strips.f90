@@ -7,7 +7,8 @@ module faststrip_normal_strips
     implicit none
     private
 
-    public :: contact_strips_t, reserve_strips, copy_strips, mirror_strips, strip_load, strips_load
+    public :: contact_strips_t, reserve_strips, copy_strips, mirror_strips
+    public :: strip_load, strips_load, load_of, middle_of
     public :: starts_patch, ends_patch, first_of_patch, last_of_patch
     public :: usual_strips, usual_strip_tolerance
 
@@ -120,6 +121,23 @@ contains
         strips_load = sum(strip_load(strips%p0(:strips%n), strips%half_length(:strips%n), &
                                      strips%y_right(:strips%n) - strips%y_left(:strips%n)))
     end function strips_load
+
+    !> Load of one of them, N.
+    pure real(wp) function load_of(strips, k)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        integer, intent(in) :: k                     !! one of its strips
+
+        load_of = strip_load(strips%p0(k), strips%half_length(k), &
+                             strips%y_right(k) - strips%y_left(k))
+    end function load_of
+
+    !> Where the middle of a strip is across, mm.
+    pure real(wp) function middle_of(strips, k)
+        type(contact_strips_t), intent(in) :: strips !! a normal solution
+        integer, intent(in) :: k                     !! one of its strips
+
+        middle_of = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
+    end function middle_of
 
     !> Is a strip the first of its patch?
     pure logical function starts_patch(strips, k)

@@ -91,7 +91,7 @@ module faststrip_tangential_faststrip
     use faststrip_base_creepage, only: creepage_t
     use faststrip_base_friction, only: friction_t, check_friction, falls, falls_when_hot
     use faststrip_base_friction_table, only: mu_at
-    use faststrip_normal_strips, only: contact_strips_t, strip_load, usual_strips
+    use faststrip_normal_strips, only: contact_strips_t, load_of, usual_strips
     use faststrip_normal_simple_patch_ellipse, only: patch_ellipse_t, patch_ellipse, patch_end, &
                                                      check_strips
     use faststrip_normal_sub_patches, only: has_neck, find_openness, next_level, level_weight, &
@@ -488,15 +488,6 @@ contains
             end associate
         end do
     end subroutine correct
-
-    !> Load of a strip, N.
-    pure real(wp) function load_of(strips, k)
-        type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: k
-
-        load_of = strip_load(strips%p0(k), strips%half_length(k), &
-                             strips%y_right(k) - strips%y_left(k))
-    end function load_of
 
     !> Add forces to the elements of a patch in proportion to their loads and friction; where they
     !> slide, the slip turns with the traction.

@@ -7,7 +7,7 @@ module faststrip_tangential_strip_slip
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: nothing
     use faststrip_base_creepage, only: creepage_t
-    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_normal_strips, only: contact_strips_t, load_of, middle_of
     implicit none
     private
 
@@ -65,8 +65,7 @@ contains
         arm = 0.0_wp
         mean = creepage_t()
         do k = first, last
-            part = strip_load(strips%p0(k), strips%half_length(k), &
-                              strips%y_right(k) - strips%y_left(k))
+            part = load_of(strips, k)
             own = strip_slip(strips, k, plane)
             load = load + part
             arm = arm + part*middle_of(strips, k)
@@ -156,12 +155,4 @@ contains
         share = (y - middle_of(strips, k))/(middle_of(strips, next) - middle_of(strips, k))
         share = 0.5_wp + max(-1.0_wp, min(share - 0.5_wp, 1.0_wp))
     end subroutine find_between
-
-    !> The middle of a strip, mm.
-    pure real(wp) function middle_of(strips, k)
-        type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: k
-
-        middle_of = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
-    end function middle_of
 end module faststrip_tangential_strip_slip

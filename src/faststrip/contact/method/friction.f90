@@ -10,7 +10,7 @@ module faststrip_contact_method_friction
     use faststrip_base_kinds, only: wp
     use faststrip_base_thermal, only: heating
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inclination
-    use faststrip_normal_strips, only: contact_strips_t, strip_load
+    use faststrip_normal_strips, only: contact_strips_t, load_of
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t
     implicit none
@@ -46,8 +46,7 @@ contains
         all = 0.0_wp
         associate (strips => workspace%strips)
             do k = 1, strips%n
-                load = strip_load(strips%p0(k), strips%half_length(k), &
-                                  strips%y_right(k) - strips%y_left(k))
+                load = load_of(strips, k)
                 mu = mean_mu_between(workspace%friction%table, case%mu, strips%y_left(k), &
                                      strips%y_right(k))
                 all = all + load

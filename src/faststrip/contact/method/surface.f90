@@ -18,7 +18,7 @@ module faststrip_contact_method_surface
                                             first_point_from
     use faststrip_normal_limitations, only: turn_of_contact, doubtful_inclination, &
                                             name_resolution, name_force_resolution
-    use faststrip_normal_strips, only: contact_strips_t, strip_load, strips_load
+    use faststrip_normal_strips, only: contact_strips_t, strips_load, load_of, middle_of
     use faststrip_contact_method, only: workspace_t, contact_result_t
     use faststrip_contact_methods, only: tangential_faststrip, tangential_faststrip_plain
     use faststrip_tangential_types, only: strip_forces_t
@@ -69,7 +69,7 @@ contains
         real(wp) :: y, z
         integer :: k
 
-        strips%is_curved = case%curved .and. curve%n > 0
+        strips%is_curved = case%curved
         if (.not. strips%is_curved) return
         strips%pitch = case%pitch
         strips%follow_outline = case%pitch > 0.0_wp
@@ -92,11 +92,8 @@ contains
         integer, intent(in) :: k
         real(wp), intent(inout) :: y, z ! across and below the plane of the contact, mm
 
-        real(wp) :: middle
-
-        middle = 0.5_wp*(strips%y_left(k) + strips%y_right(k))
-        z = z + descent(curve, y, middle)
-        y = middle
+        z = z + descent(curve, y, middle_of(strips, k))
+        y = middle_of(strips, k)
     end subroutine go_to_strip
 
     !> By how much the surface lies deeper at one place than at another, mm.
@@ -212,8 +209,7 @@ contains
         z = 0.0_wp
         do k = 1, strips%n
             call go_to_strip(curve, strips, k, y, z)
-            load = strip_load(strips%p0(k), strips%half_length(k), &
-                              strips%y_right(k) - strips%y_left(k))
+            load = load_of(strips, k)
             lean = lean + load*sin(gap_inclination(curve, y))
             depth = depth + load*z
         end do
@@ -261,8 +257,7 @@ contains
         all = strips_load(strips)
         if (.not. strips%is_curved .or. .not. all > 0.0_wp) return
         do k = 1, strips%n
-            share = strip_load(strips%p0(k), strips%half_length(k), &
-                               strips%y_right(k) - strips%y_left(k))/all
+            share = load_of(strips, k)/all
             lateral = lateral - share*load*sin(strips%inclination(k))
             cosine = cosine - share*2.0_wp*sin(0.5_wp*strips%inclination(k))**2
         end do
@@ -307,7 +302,7 @@ contains
             centre = 0.0_wp
             do k = 1, strips%n
                 if (strips%has_places) place = strips%x0(k)
-                centre = centre + load_of(k)/load*[place, middle_of(k)]
+                centre = centre + load_of(strips, k)/load*[place, middle_of(strips, k)]
             end do
             result%moment = normal%load*[centre(2), -centre(1)]
             ! Forces that know nothing of places have the arm of the pressures.
@@ -326,7 +321,7 @@ contains
             lean = 0.0_wp
             shortened = 0.0_wp
             do k = 1, strips%n
-                share = load_of(k)/load
+                share = load_of(strips, k)/load
                 if (strips%has_places) place = strips%x0(k)
                 fx = share*tangential%fx
                 fy = share*tangential%fy
@@ -341,7 +336,7 @@ contains
                 turned_y = turned_y + side
                 turned_z = turned_z + down
                 turned_m = turned_m + place*side
-                associate (y => middle_of(k), z => strips%depth(k))
+                associate (y => middle_of(strips, k), z => strips%depth(k))
                     result%moment(1) = result%moment(1) + y*(share*normal%load + down) &
                                        - z*(fy + side)
                     arm = arm + y*fx - place*fy
@@ -356,20 +351,5 @@ contains
             tangential%fy = tangential%fy + turned_y
             normal%load = normal%load + turned_z
         end associate
-
-    contains
-
-        pure real(wp) function load_of(k)
-            integer, intent(in) :: k
-
-            load_of = strip_load(workspace%strips%p0(k), workspace%strips%half_length(k), &
-                                 workspace%strips%y_right(k) - workspace%strips%y_left(k))
-        end function load_of
-
-        pure real(wp) function middle_of(k)
-            integer, intent(in) :: k
-
-            middle_of = 0.5_wp*(workspace%strips%y_left(k) + workspace%strips%y_right(k))
-        end function middle_of
     end subroutine turn_forces
 end module faststrip_contact_method_surface

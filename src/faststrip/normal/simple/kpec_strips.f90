@@ -22,7 +22,7 @@ module faststrip_normal_simple_kpec_strips
     use faststrip_normal_simple_kpec, only: kpec_solve
     use faststrip_normal_patch_curves, only: curve_peak
     use faststrip_normal_strip_state, only: newton_workspace_t
-    use faststrip_normal_strips, only: contact_strips_t, last_of_patch, strip_load
+    use faststrip_normal_strips, only: contact_strips_t, last_of_patch, strip_load, load_of
     use faststrip_normal_types, only: demand_t, normal_result_t
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     implicit none
@@ -161,8 +161,7 @@ contains
             p0 = depth*history(k, 1) - history(k, 2)
             pulls = pulls .or. p0 <= 0.0_wp
             strips%p0(k) = max(p0, left_over*strips%p0(k))
-            load = load + strip_load(strips%p0(k), strips%half_length(k), &
-                                     strips%y_right(k) - strips%y_left(k))
+            load = load + load_of(strips, k)
         end do
         if (demand%by_load) then
             strips%p0(:strips%n) = strips%p0(:strips%n)*(demand%load/load)
