@@ -22,9 +22,9 @@ module faststrip_normal_strip_grading
 
     ! Tuned [1]. Origin: chosen for the errors of pmax and area.
     real(wp), parameter :: end_grading = 0.7_wp ! towards the ends; 0: even strips, 1: as the sine
-    ! Tuned [1]. Origin: chosen for the errors of forces on 240 contacts of many kinds, .20 and .26 %
-    ! of mu N in the means of both halves; with 3.4 .26 and .33, but 9 of 1089 contacts of new wheels
-    ! are under resolved instead of 50. Strips are narrower by 2 at most.
+    ! Tuned [1]. Origin: chosen for the errors of forces on 240 contacts of many kinds, .20 and .26
+    ! % of mu N in the means of both halves; with 3.4 .26 and .33, but 9 of 1089 contacts of new
+    ! wheels are under resolved instead of 50. Strips are narrower by 2 at most.
     real(wp), parameter :: most_narrowed = 1.7_wp ! largest V
     ! Tuned [strips]: d. Origin: chosen for the errors of pmax; from 2.6 to 3.2 they change little.
     real(wp), parameter :: reach = 3.0_wp
