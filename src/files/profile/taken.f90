@@ -37,7 +37,7 @@ contains
                                                        !! `st_bad_argument`: a standard profile
                                                        !! that is described like a file
 
-        logical :: is_standard, is_file
+        logical :: is_standard
 
         taken%words = ''
         taken%done = ''
@@ -50,9 +50,6 @@ contains
         else if (describes_file(options, taken%points%kind)) then
             call set_status(status, st_bad_argument, path // ' is a standard profile: what ' // &
                             'tells how a file is read is for ./' // path)
-        else
-            inquire (file=path, exist=is_file)
-            if (is_file) taken%points%notes = 'the standard profile, not the file ./' // path
         end if
         if (is_error(status)) return
         call clean(cleaning, taken%points, taken%done, status)
