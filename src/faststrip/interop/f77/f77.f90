@@ -89,7 +89,7 @@ module faststrip_interop_f77
     public :: fstsim, fskalk, fsherz, fsdflt, fsinit, fsgap, fssolv, fscont, fsstrp, fselem
     public :: fslimt, fserrs, fsferr, fslset, fscopy, fsfree, fsmsg, fslast, fsprof, fsrprf
     public :: fswant, fstakn, fsstep, fsints, fscurv, fsgapt
-    public :: n_iwork, check_choices, set_number, number_of, find_either, copy_strips
+    public :: n_iwork, check_count, check_choices, set_number, number_of, find_either, copy_strips
 
     ! A workspace array: two marks around the handle.
     integer, parameter :: n_iwork = 8, first_mark = 1179603536, last_mark = 1412575053
@@ -270,7 +270,7 @@ contains
 
         call find_handle(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
-        call check_points(handle, n)
+        call check_count(handle%status, n, 'gap points')
         if (.not. is_error(handle%status)) call handle_gap(handle, y(:n), h(:n), a(:n))
         info = handle%status%code
     end subroutine fsgap
@@ -290,21 +290,22 @@ contains
 
         call find_handle(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
-        call check_points(handle, n)
+        call check_count(handle%status, n, 'gap points')
         if (.not. is_error(handle%status)) &
             call handle_gap(handle, y(:n), h(:n), a(:n), inclination(:n))
         info = handle%status%code
     end subroutine fsgapt
 
-    ! Refuse a number of points that is none.
-    subroutine check_points(handle, n)
-        type(handle_t), intent(inout) :: handle
-        integer(c_int), intent(in) :: n
+    !> Refuse a number of things that is none.
+    subroutine check_count(status, n, what)
+        type(status_t), intent(out) :: status !! `st_bad_argument`
+        integer(c_int), intent(in) :: n       !! how many the caller says there are
+        character(len=*), intent(in) :: what  !! things, in the plural
 
-        call clear_status(handle%status)
-        if (n < 0) call set_status(handle%status, st_bad_argument, 'the number of gap points ' // &
-                                   'must not be negative, got ' // count_text(n))
-    end subroutine check_points
+        call clear_status(status)
+        if (n < 0) call set_status(status, st_bad_argument, 'the number of ' // what // &
+                                   ' must not be negative, got ' // count_text(n))
+    end subroutine check_count
 
     !> CALL FSSOLV(IWORK, IOPT, PAR, RES, INFO)
     !>

@@ -7,9 +7,8 @@
 module faststrip_interop_f77_wheelset_memory
     use, intrinsic :: iso_c_binding, only: c_int, c_int8_t
     use, intrinsic :: iso_fortran_env, only: int64
-    use faststrip_base_status, only: set_status, clear_status, is_error, count_text, &
-                                     st_bad_argument
-    use faststrip_interop_f77, only: n_iwork, number_of
+    use faststrip_base_status, only: is_error
+    use faststrip_interop_f77, only: n_iwork, number_of, check_count
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset, save_memory, &
                                                  restore_memory
     implicit none
@@ -35,7 +34,7 @@ contains
         needed = 0
         call find_wheelset(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
-        call check_bytes(handle, n_bytes)
+        call check_count(handle%status, n_bytes, 'bytes')
         if (.not. is_error(handle%status)) then
             call save_memory(handle, bytes(:n_bytes), n)
             needed = int(n, c_int)
@@ -56,18 +55,8 @@ contains
 
         call find_wheelset(number_of(iwork), handle, info)
         if (.not. associated(handle)) return
-        call check_bytes(handle, n_bytes)
+        call check_count(handle%status, n_bytes, 'bytes')
         if (.not. is_error(handle%status)) call restore_memory(handle, bytes(:n_bytes))
         info = handle%status%code
     end subroutine fswrst
-
-    ! Refuse a number of bytes that is none.
-    subroutine check_bytes(handle, n)
-        type(wheelset_handle_t), intent(inout) :: handle
-        integer(c_int), intent(in) :: n
-
-        call clear_status(handle%status)
-        if (n < 0) call set_status(handle%status, st_bad_argument, 'the number of bytes must ' // &
-                                   'not be negative, got ' // count_text(n))
-    end subroutine check_bytes
 end module faststrip_interop_f77_wheelset_memory
