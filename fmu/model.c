@@ -377,10 +377,17 @@ typedef struct difference {
     values side[2];
 } difference;
 
-static int find_difference(model *m, difference *along)
+/* The state that is to come back, before the first solution that changes it. */
+static int keep_once(model *m, void **kept)
+{
+    return *kept ? STATUS_OK : keep_state(m, kept);
+}
+
+static int find_difference(model *m, difference *along, void **kept)
 {
     faststrip_wheelset_demand demand = m->now.demand;
     double step = INFINITY;
+    int status;
     demand.warm_start = 1;
     for (int i = 0; i < N_VARIABLES; i++) {
         size_t k = (variables[i].offset - offsetof(values, state)) / sizeof(double);
@@ -389,6 +396,8 @@ static int find_difference(model *m, difference *along)
     }
     along->is_found = 1;
     if (isinf(step)) return STATUS_OK;
+    status = keep_once(m, kept);
+    if (status != STATUS_OK) return status;
     for (int i = 0; i < 2; i++) {
         faststrip_wheelset_state state = m->now.state;
         double *numbers = (double *)&state;
@@ -404,7 +413,7 @@ static int find_difference(model *m, difference *along)
 
 static int find_slopes(model *m, const unsigned int *outputs, size_t n,
                        const unsigned int *inputs, size_t k, const double *seeds,
-                       double *derivatives)
+                       double *derivatives, void **kept)
 {
     difference all = {.distance = 0.0}, others = all, *along;
     const variable *of;
@@ -420,6 +429,8 @@ static int find_slopes(model *m, const unsigned int *outputs, size_t n,
         if (column_of(j) < 0) others.direction[j] = all.direction[j];
     /* Of the library where z and roll are given, unless something comes or goes just there. */
     if (m->slopes_are == UNKNOWN) {
+        status = keep_once(m, kept);
+        if (status != STATUS_OK) return status;
         if (m->last != HERE) m->now.is_solved = 0;
         status = solve_model(m);
         if (status != STATUS_OK) return status;
@@ -433,7 +444,7 @@ static int find_slopes(model *m, const unsigned int *outputs, size_t n,
         if (status != STATUS_OK) return status;
         row = m->slopes_are == KNOWN ? row_of(of->offset) : -1;
         along = row >= 0 ? &others : &all;
-        if (!along->is_found) status = find_difference(m, along);
+        if (!along->is_found) status = find_difference(m, along, kept);
         if (status != STATUS_OK) return status;
         derivatives[i] = 0.0;
         if (along->distance > 0.0)
@@ -454,9 +465,8 @@ int find_derivatives(model *m, const unsigned int *outputs, size_t n, const unsi
     void *kept = NULL;
     int found = solve_model(m), status, slopes_are;
     if (found != STATUS_OK) return found;
-    status = keep_state(m, &kept);
-    if (status != STATUS_OK) return status;
-    found = find_slopes(m, outputs, n, inputs, k, seeds, derivatives);
+    found = find_slopes(m, outputs, n, inputs, k, seeds, derivatives, &kept);
+    if (!kept) return found;
     slopes_are = m->slopes_are;
     status = restore_state(m, kept);
     m->slopes_are = slopes_are;
