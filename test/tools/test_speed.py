@@ -66,6 +66,18 @@ class Rows(unittest.TestCase):
             self.assertEqual(cells["over_fastsim_worst"], 4.5)
         self.assertEqual((rows[3]["us_median"], rows[3]["worst_case"]), (70.0, "scene 17"))
 
+    def test_the_start_of_a_program_is_no_part_of_a_row(self):
+        # A start takes longer than some rows, and not always as long.
+        def time_rows(folder, gaps, figures, gap):
+            reads = len(set(gaps))
+            return (0.016 if len(gaps) == 1 else 0.014) + 2e-4 * len(gaps) + 1e-4 * reads
+
+        with mock.patch.object(speed, "time_rows", time_rows):
+            keys, values = speed.time_batch(pathlib.Path(), ["shift_0"])
+        self.assertEqual([name for name, _ in keys], [speed.GAP_READ, speed.GAP_NEW])
+        for us, expected in zip(values, (200.0, 300.0), strict=True):
+            self.assertLess(abs(us - expected), 0.1 * expected)
+
 
 class Contact(unittest.TestCase):
     def test_recorded_times_are_those_of_the_reference(self):

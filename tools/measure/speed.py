@@ -51,6 +51,8 @@ GROUPS = {"normal": "normal", "tangential": "tangential", "both": "normal and ta
           "gap": "gap", "influence": "influence coefficient", "wheelset": "wheelset"}
 COLD_START, FROM_BEFORE = "cold start", "from the state before"
 GAP_READ, GAP_NEW = "row, gap read before", "row, new gap"
+# So many rows are timed that they take this many times what a run of one row does, start and all.
+OVER_START = 2.0
 # Steel of the references: nu 0.28, G 82000 MPa.
 BATCH_HEADER = "case,gap_file,E_MPa,nu,mu,N_N,cksi,ceta,cphi_rad_per_mm"
 BATCH_MATERIAL = "209920,0.28,0.3"
@@ -114,7 +116,7 @@ def measure(quick):
             keep(steps, ((*key, "cold") for key in keys), table.numbers("cold_us"))
             note(f"{said}: rows of batch")
             cases = list(dict.fromkeys(key[2] for key in methods if key[0] == "both"))
-            keys, values = time_batch(folder, cases, 5 if quick else 15)
+            keys, values = time_batch(folder, cases)
             keep(batch, keys, values)
     return stamps, method_rows(methods) + step_rows(methods, steps) + batch_rows(methods, batch)
 
@@ -154,8 +156,9 @@ def keep(least, keys, values):
             least[key] = min(least.get(key, math.inf), value)
 
 
-def time_batch(folder, cases, count):
-    """A row's time by gap read before and new gap, us: many rows of a contact less one row."""
+def time_batch(folder, cases):
+    """A row's time by gap read before and new gap, us: many rows of a contact less one row. So
+    many that the program's start, which differs from run to run, is but a small part of them."""
     table = read_table(str(ROOT / CONTACTS / FULL))
     figures = {f"shift_{word}": [table.words(name)[k] for name in
                                  ("Fn_N", "cksi", "ceta", "cphi_rad_per_mm")]
@@ -163,21 +166,25 @@ def time_batch(folder, cases, count):
     keys, values = [], []
     for case in cases:
         gap = (ROOT / CONTACTS / "gaps" / f"{case}.csv").read_text(encoding="utf-8")
-        for k in range(count + 1):
-            (folder / f"gap_{k}.csv").write_text(gap, encoding="utf-8")
-        single = time_rows(folder, [0], figures[case])
-        for name, gaps in ((GAP_READ, [0] * (count + 1)), (GAP_NEW, range(count + 1))):
-            seconds = time_rows(folder, gaps, figures[case]) - single
+        single = time_rows(folder, [0], figures[case], gap)
+        for name, is_new in ((GAP_READ, 0), (GAP_NEW, 1)):
+            count, seconds = 8, 0.0
+            while seconds <= OVER_START * single:
+                count *= 2
+                gaps = [is_new * k for k in range(count + 1)]
+                seconds = time_rows(folder, gaps, figures[case], gap) - single
             keys.append((name, case))
-            values.append(1e6 * max(seconds, 0.0) / count)
+            values.append(1e6 * seconds / count)
     return keys, values
 
 
-def time_rows(folder, gaps, figures):
-    """Processor seconds of `batch` on rows with these gap files, the lesser of two runs. By one
-    thread: what another does while it waits for rows is not theirs."""
-    rows = [f"{k},gap_{gap}.csv,{BATCH_MATERIAL},{','.join(figures)}"
-            for k, gap in enumerate(gaps)]
+def time_rows(folder, gaps, figures, gap):
+    """Processor seconds of `batch` on rows whose files with these numbers hold a gap, the lesser
+    of two runs. By one thread: what another does while it waits for rows is not theirs."""
+    for number in set(gaps):
+        (folder / f"gap_{number}.csv").write_text(gap, encoding="utf-8")
+    rows = [f"{k},gap_{number}.csv,{BATCH_MATERIAL},{','.join(figures)}"
+            for k, number in enumerate(gaps)]
     (folder / "batch.csv").write_text("\n".join([BATCH_HEADER, *rows]) + "\n", encoding="utf-8")
     words = [str(ROOT / "bin" / "faststrip"), "batch", str(folder / "batch.csv"), "-o",
              str(folder / "result.csv"), "--threads", "1"]
