@@ -20,7 +20,7 @@ CONSTANTS = (
     ("strip/equations.f90", "leaving_length_ratio", "0.15", "its length falls below 0.15 of its"),
     ("cells/overlap.f90", "overlap_tolerance", "1.0e-3", "below $-10^{-3} D$"),
     ("strip/patches.f90", "fewest_strips_small_patch", "9", "but at least nine"),
-    ("strip/grading.f90", "most_narrowed", "1.7", "$V$, at most 1.7,"),
+    ("strip/grading.f90", "most_narrowed", "5.0", "$V$, at most 5,"),
     ("strip/figures.f90", "missed", "0.09", "\\left( 1 + 0.09"),
     ("strip/converge.f90", "second_order", "0.05", "$0.05\\, e^2$"),
     ("strip/converge.f90", "trusted", "0.5", "where $e$ is above 0.5"),

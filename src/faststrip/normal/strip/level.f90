@@ -3,8 +3,7 @@
 !> Together (`faststrip_normal_strip_converge`) is the usual way. What then overlaps beside the
 !> patches joins them, and what has met merges, until nothing changes. In turn, strips are solved
 !> for between ends that are held, then the ends move; strips that leave are cut off and split their
-!> patch. After the first passes strips and ends are tried together again. A pass whose ends move
-!> little more may stand.
+!> patch. A pass whose ends move little more may stand.
 module faststrip_normal_strip_level
     use faststrip_base_kinds, only: wp
     use faststrip_normal_strips, only: contact_strips_t, usual_strips, usual_strip_tolerance
@@ -79,9 +78,15 @@ contains
         type(contact_strips_t), intent(inout) :: strips !! of the solution, if it converged
         type(normal_result_t), intent(inout) :: result  !! of the solution; costs are added
 
+        integer :: coupling
+        logical :: changed
+
         call begin(level, attempt)
         workspace%graded = .true.
-        call couple(workspace, compliance, demand, level, attempt, strips, result)
+        do coupling = 1, max_couplings
+            call couple(workspace, compliance, demand, level, attempt, strips, result, changed)
+            if (.not. changed) exit
+        end do
     end subroutine solve_together
 
     !> Strips between ends that are held, and the ends, in turn.
@@ -98,7 +103,7 @@ contains
         type(attempt_t) :: best
         type(patches_t) :: solved
         real(wp) :: tolerance, moved, best_move
-        integer :: pass, best_pass, couplings, outcome
+        integer :: pass, best_pass, outcome
         logical :: at_rest, possible, changed
 
         call begin(level, attempt)
@@ -108,7 +113,6 @@ contains
         at_rest = .false.
         best_move = huge(1.0_wp)
         best_pass = 0
-        couplings = 0
         do pass = 1, max_passes
             if (best_move <= loose_end_tolerance .and. pass > best_pass + max_idle_passes) exit
             call position(workspace, level, size(strips%p0), result%cost, attempt, possible)
@@ -140,17 +144,16 @@ contains
                     best%patches = solved
                     call keep(workspace, best, strips, result)
                 end if
-                if (at_rest .or. moved < end_tolerance) exit
+                if (at_rest .or. moved < end_tolerance) then
+                    ! From here both together mostly find the solution itself.
+                    call couple(workspace, compliance, demand, level, attempt, strips, result, &
+                                changed)
+                    if (attempt%converged) best = attempt
+                    exit
+                end if
             end if
             at_rest = moved < end_tolerance
             tolerance = next_tolerance(level%tolerance, pass, moved)
-            if (couplings == max_couplings) cycle
-            couplings = couplings + 1
-            call couple_once(workspace, compliance, demand, level, attempt, strips, result, changed)
-            if (.not. attempt%converged) cycle
-            best_move = 0.0_wp
-            best = attempt
-            exit
         end do
         attempt%converged = best_move <= loose_end_tolerance
         ! More strips start from where the ends were going.
@@ -259,28 +262,9 @@ contains
         workspace%strips%penetration = attempt%penetration
     end subroutine position
 
-    !> Solve for strips and ends together, until no overlap joins any more.
-    subroutine couple(workspace, compliance, demand, level, attempt, strips, result)
-        type(strip_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: compliance
-        type(demand_t), intent(in) :: demand
-        type(level_t), intent(in) :: level
-        type(attempt_t), intent(inout) :: attempt
-        type(contact_strips_t), intent(inout) :: strips
-        type(normal_result_t), intent(inout) :: result
-
-        integer :: coupling
-        logical :: changed
-
-        do coupling = 1, max_couplings
-            call couple_once(workspace, compliance, demand, level, attempt, strips, result, changed)
-            if (.not. changed) exit
-        end do
-    end subroutine couple
-
     !> Solve for strips and ends together, and let overlaps join. Where there is no solution the
     !> patches are as before.
-    subroutine couple_once(workspace, compliance, demand, level, attempt, strips, result, changed)
+    subroutine couple(workspace, compliance, demand, level, attempt, strips, result, changed)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
@@ -317,7 +301,7 @@ contains
         end if
         call keep(workspace, attempt, strips, result)
         attempt%converged = .true.
-    end subroutine couple_once
+    end subroutine couple
 
     !> Strips leave: cut them off and share the others anew.
     pure subroutine cut(workspace, level, attempt, possible)
