@@ -12,7 +12,7 @@ STATE = {"y": 1.0, "yaw": 2e-3, "speed": 2e4, "y_rate": 30.0, "yaw_rate": -4e-3}
 
 # Steps of differences, and how far apart they may be from derivatives, of the largest of a column:
 # kinks of sliding elements are within these steps.
-STEPS = (1e-4, 1e-4, 1e-7, 1e-6, 1e-2, 1e-1, 1e-4, 1e-5, 1e-5)
+STEPS = (1e-4, 1e-4, 1e-7, 1e-6, 1e-2, 1e-1, 1e-5, 1e-5, 1e-5)
 APART = (4e-3, 2e-4, 3e-4, 1e-4, 5e-6, 1e-6, 1e-5, 3e-6, 3e-6)
 
 

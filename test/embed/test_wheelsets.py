@@ -522,8 +522,9 @@ class Interfaces(HostTest):
             self.assertAlmostEqual(found.load / float(row["N_N"]), 1.0,
                                    delta=0.012 if row["case"] == "wide_3" else 8e-3
                                    if row["case"] == "wide_2" else 4e-3)
+            # That of wide_2 moves by 3 % with the number of strips, from 11 to 21.
             self.assertAlmostEqual(found.pmax / float(row["pmax_MPa"]), 1.0,
-                                   delta=0.04 if row["case"] == "shared_2" else 0.01)
+                                   delta=0.04 if row["case"] in ("shared_2", "wide_2") else 0.01)
             # Estimates know what strips leave out of it, at the same load.
             ratio = found.load / float(row["N_N"])
             pmax = found.pmax / float(row["pmax_MPa"]) / ratio**0.36

@@ -23,8 +23,8 @@ module faststrip_normal_strip_converge
                                                         coupled_residual, coupled_factors
     use faststrip_normal_strip_ends, only: end_width
     use faststrip_normal_strip_patches, only: patches_t, max_patches
-    use faststrip_normal_strip_state, only: strip_workspace_t, newton_workspace_t, position_edges, &
-                                            look_for_edges, renew_edges
+    use faststrip_normal_strip_state, only: strip_workspace_t, newton_workspace_t, most_past, &
+                                            position_edges, look_for_edges, renew_edges
     use faststrip_normal_types, only: demand_t, cost_t
     implicit none
     private
@@ -56,11 +56,11 @@ module faststrip_normal_strip_converge
     real(wp), parameter :: second_order = 0.05_wp
     ! Tuned [1]: the same of several patches, whose distances change. Origin: measured: .7.
     real(wp), parameter :: second_order_apart = 1.0_wp
-    ! Tuned [1]: the steps' tolerance over that asked for, or over the square of what has changed,
-    ! where that is more: coefficients are evaluated anew then. Origin: chosen: steps cost little.
+    ! Tuned [1]: the steps' tolerance over that asked for, or over the square of what has changed:
+    ! coefficients are evaluated anew then. Origin: chosen: steps cost little.
     real(wp), parameter :: finest = 0.3_wp
-    ! Tuned [1]: what is left where edges are looked at, over the change that coefficients allow.
-    ! Origin: chosen: edges change by less than their tolerance from there.
+    ! Tuned [1]: what is left where coefficients are evaluated anew, over the change that they
+    ! allow. Origin: chosen for the time: they serve from there.
     real(wp), parameter :: near = 0.2_wp
     ! Tuned [1]: change from which coefficients are not trusted; the same with ends held. Origin:
     ! convergence of hostile gaps: with .2 ends held 14 of 888 fewer are `ok`.
@@ -93,6 +93,7 @@ module faststrip_normal_strip_converge
         logical :: fresh = .false., was_fresh = .false. ! are factors those of this step, the last
                                                         ! that was taken?
         real(wp) :: size_now = 0.0_wp, size_before = beyond_all ! largest component of the steps
+        integer :: past = 0            ! steps so far by the same factors and coefficients
         real(wp) :: scale = 1.0_wp     ! part of a step that is taken
         real(wp) :: p_scale = 1.0_wp   ! unit of the pressures' steps, MPa
     end type course_t
@@ -220,6 +221,7 @@ contains
 
         associate (newton => workspace%newton)
             call lu_solve(course%m, newton%jacobian, newton%pivot, newton%step)
+            call correct_step(newton, course)
             course%size_now = maxval(abs(newton%step(:course%m)))
             possible = course%size_now < huge(1.0_wp)
             if (.not. possible .or. course%fresh) return
@@ -227,6 +229,34 @@ contains
                 newton%kept = .false.
         end associate
     end subroutine find_step
+
+    !> A step by old factors, corrected by what the steps before it left (Broyden's method; C. T.
+    !> Kelley, Solving Nonlinear Equations with Newton's Method, 2003, 4.1). Near a solution only:
+    !> from afar more steps would lead elsewhere.
+    pure subroutine correct_step(newton, course)
+        type(newton_workspace_t), intent(inout) :: newton
+        type(course_t), intent(inout) :: course
+
+        real(wp) :: share
+        integer :: i
+
+        associate (step => newton%step(:course%m), past => newton%past(:course%m, :), &
+                   n => course%past)
+            if (course%fresh .or. course%size_before > close .or. n == most_past) n = 0
+            share = 0.0_wp
+            do i = 1, n
+                share = dot_product(past(:, i), step)/max(norm2(past(:, i))**2, tiny(share))
+                if (i < n) step = step + share*past(:, i + 1)
+            end do
+            if (abs(share) <= 0.5_wp) then
+                step = step/(1.0_wp - share)
+                n = n + 1
+            else
+                n = 1
+            end if
+            past(:, n) = step
+        end associate
+    end subroutine correct_step
 
     !> Is what is left below the tolerance? If not: are coefficients to be evaluated anew?
     pure subroutine judge(workspace, tolerance, patches, course, outcome)
@@ -236,7 +266,7 @@ contains
         type(course_t), intent(inout) :: course
         integer, intent(out) :: outcome
 
-        real(wp) :: left, change, error
+        real(wp) :: left, change, second, error
 
         outcome = not_converged
         if (course%scale < 1.0_wp) then
@@ -249,7 +279,8 @@ contains
         if (.not. course%size_before < beyond_all) left = course%size_now*slow/(1.0_wp - slow)
         course%size_before = course%size_now
         change = linear_change(workspace%linear, workspace%strips)
-        error = merge(second_order, second_order_apart, patches%n == 1)*change**2
+        second = merge(second_order, second_order_apart, patches%n == 1)
+        error = second*change**2
         if (left <= finest*tolerance .and. error <= tolerance) then
             if (course%follows) call look_for_edges(workspace, patches, course%moved)
             ! Where a jump of curvature enters the patch edges move on after a look.
@@ -257,10 +288,11 @@ contains
             if (.not. course%again) outcome = converged
             return
         end if
-        course%again = error > tolerance .and. left <= finest*max(tolerance, change**2)
+        course%again = error > tolerance &
+                       .and. left <= max(finest*change**2, near*sqrt(tolerance/second))
         if (.not. course%follows .or. course%looked .or. course%again) return
-        ! Near enough for coefficients to serve from here: do edges belong elsewhere?
-        if (left > near*sqrt(tolerance/second_order)) return
+        ! Near enough for edges that stay: do they belong elsewhere?
+        if (left > 0.5_wp*edge_tolerance) return
         course%looked = .true.
         call look_for_edges(workspace, patches, course%moved)
         course%again = course%moved > edge_tolerance

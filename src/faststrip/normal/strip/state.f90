@@ -16,7 +16,7 @@ module faststrip_normal_strip_state
 
     public :: strip_workspace_t, reserve_strip_workspace, set_strip_gap
     public :: position_edges, position_strips, remember, mirror_old, flattest
-    public :: newton_workspace_t, forget_edges, forget_factors, look_for_edges, renew_edges
+    public :: newton_workspace_t, most_past, forget_edges, forget_factors, look_for_edges, renew_edges
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
     !> Tuned [1/mm]. Origin: safeguard.
@@ -24,6 +24,9 @@ module faststrip_normal_strip_state
     ! Tuned [half-widths]: place in an old patch from which a strip beside it is started. Origin:
     ! chosen: pressures vanish at 1.
     real(wp), parameter :: outermost = 0.95_wp
+
+    ! Tuned [steps]. Origin: capacity: mostly three to six do.
+    integer, parameter :: most_past = 8
 
     !> The linear system of 2n + 1 equations and those of the ends.
     type :: newton_workspace_t
@@ -35,6 +38,7 @@ module faststrip_normal_strip_state
         real(wp), allocatable :: jacobian(:, :)
         real(wp), allocatable :: step(:)
         real(wp), allocatable :: other(:, :) !! (2) other vectors
+        real(wp), allocatable :: past(:, :)  !! (most_past) steps by the same factors
         integer, allocatable :: pivot(:)
     end type newton_workspace_t
 
@@ -110,10 +114,11 @@ contains
         if (allocated(workspace%pivot)) then
             if (size(workspace%pivot) >= n) return
             workspace%kept = .false.
-            deallocate (workspace%jacobian, workspace%step, workspace%other, workspace%pivot)
+            deallocate (workspace%jacobian, workspace%step, workspace%other, &
+                        workspace%past, workspace%pivot)
         end if
         allocate (workspace%jacobian(n, n), workspace%step(n), workspace%other(n, 2), &
-                  source=0.0_wp)
+                  workspace%past(n, most_past), source=0.0_wp)
         allocate (workspace%pivot(n), source=0)
     end subroutine reserve_newton
 
