@@ -16,7 +16,8 @@ module faststrip_normal_strip_state
 
     public :: strip_workspace_t, reserve_strip_workspace, set_strip_gap
     public :: position_edges, position_strips, remember, mirror_old, flattest
-    public :: newton_workspace_t, most_past, forget_edges, forget_factors, look_for_edges, renew_edges
+    public :: newton_workspace_t, most_past
+    public :: forget_edges, forget_factors, look_for_edges, renew_edges
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
     !> Tuned [1/mm]. Origin: safeguard.
@@ -25,7 +26,7 @@ module faststrip_normal_strip_state
     ! chosen: pressures vanish at 1.
     real(wp), parameter :: outermost = 0.95_wp
 
-    ! Tuned [steps]. Origin: capacity: mostly three to six do.
+    ! Tuned [steps]: most that correct a step by old factors. Origin: capacity: three to six do.
     integer, parameter :: most_past = 8
 
     !> The linear system of 2n + 1 equations and those of the ends.
