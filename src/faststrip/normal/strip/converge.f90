@@ -61,7 +61,7 @@ module faststrip_normal_strip_converge
     real(wp), parameter :: finest = 0.3_wp
     ! Tuned [1]: what is left where coefficients are evaluated anew, over the change that they
     ! allow. Origin: chosen for the time: they serve from there.
-    real(wp), parameter :: near = 0.2_wp
+    real(wp), parameter :: near = 0.05_wp
     ! Tuned [1]: change from which coefficients are not trusted; the same with ends held. Origin:
     ! convergence of hostile gaps: with .2 ends held 14 of 888 fewer are `ok`.
     real(wp), parameter :: trusted = 0.5_wp, trusted_held = 0.06_wp
