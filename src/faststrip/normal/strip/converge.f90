@@ -292,7 +292,7 @@ contains
                        .and. left <= max(finest*change**2, near*sqrt(tolerance/second))
         if (.not. course%follows .or. course%looked .or. course%again) return
         ! Near enough for edges that stay: do they belong elsewhere?
-        if (left > 0.5_wp*edge_tolerance) return
+        if (left > 0.25_wp*edge_tolerance) return
         course%looked = .true.
         call look_for_edges(workspace, patches, course%moved)
         course%again = course%moved > edge_tolerance
