@@ -158,7 +158,7 @@ def contact(wheel: Body, rail: Body, y: float = 0.0, *, vertical_load: Optional[
     --------
     >>> found = contact("s1002", "60e1", y=3.0, vertical_load=80e3)
     >>> found.word, round(found.fx / 1e3, 2), round(found.fy / 1e3, 2)
-    ('ok', -9.86, -5.58)
+    ('ok', -9.85, -5.58)
     """
     pair = Pair("contact", wheel, rail, inclination, wheel_radius, options)
     demand = demand_of(vertical_load, load, penetration)
