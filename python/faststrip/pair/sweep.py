@@ -142,7 +142,7 @@ def sweep(wheel: Body, rail: Body, y: npt.ArrayLike, *,
     --------
     >>> found = sweep("s1002", "60e1", y=[-3.0, 0.0, 3.0, 300.0], vertical_load=80e3)
     >>> (found.fx / 1e3).round(2).tolist(), found.counts
-    ([11.46, -2.3, -9.86, nan], {'ok': 3, 'no_contact': 1})
+    ([11.46, -2.31, -9.85, nan], {'ok': 3, 'no_contact': 1})
     """
     pair = Pair("sweep", wheel, rail, inclination, wheel_radius, options)
     demand = demand_of(vertical_load, load, penetration)
