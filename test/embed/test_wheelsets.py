@@ -554,6 +554,32 @@ class Interfaces(HostTest):
             self.assertLess(abs(many[8] / 8e4 - 1.0), 0.25)
             self.assertGreater(np.abs(np.diff(one, 2)).max(), 2e4)
 
+    def test_auto_goes_from_ellipses_to_strips_without_a_jump(self):
+        # An ellipse and strips differ by up to 2.3 kN where its estimate meets the tolerance.
+        package = self.import_package()
+        for rail, inclination, load, tolerance, places in (
+                ("60e1", 0.025, 8e4, 0.05, (2.4, 4.2)), ("54e1", 0.025, 6e4, 0.1, (1.0, 4.2)),
+                ("60e1", 0.0, 5e4, 0.05, (1.5, 3.4))):
+            pair = {"rail": rail, "inclination": inclination}
+            auto = package.Wheelset(**pair, normal="auto", tolerance=tolerance)
+            strips = package.Wheelset(**pair)
+            apart, errors, across = [], [], []
+            for y in np.arange(*places, 0.02):
+                state = {"y": y, "y_rate": 5.0, "speed": 2e4, "roll": 0.0, "wheels": "right"}
+                by_strips = strips.solve(load=load, **state)
+                found = auto.solve(z=float(by_strips.z[0]), **state)
+                apart.append(np.array(found.force[0]) - np.array(by_strips.force[0]))
+                errors.append(found.contacts[0].est_err_fx)
+                across.append(found.contacts[0].strips_across)
+            with self.subTest(rail=rail, inclination=inclination):
+                # By ellipses alone, by both, by strips alone.
+                self.assertIn(0, across)
+                self.assertGreater(max(across), 14)
+                self.assertLess(np.abs(apart).min(axis=0).max(), 2.0)
+                self.assertLess(np.abs(np.diff(apart, axis=0)).max(), 150.0)
+                # Estimates go over as forces do.
+                self.assertLess(np.abs(np.diff(errors)).max(), 0.1 * tolerance)
+
     def test_strips_slide_and_turn_at_their_places(self):
         # Throat and tread together, all of it sliding: sums over the pressures of the exact gap.
         wheelset = self.import_package().Wheelset(estimate=False)

@@ -42,8 +42,6 @@ module faststrip_contact_auto
 
     ! Most steps by the core: grids may follow.
     integer, parameter :: most_own_steps = most_steps - most_grids
-    ! Tuned [strips]: Strips of the first answer. Origin: fewer are hardly cheaper.
-    integer, parameter :: first_strips = 7
     ! Strips of a Hertz ellipse, which cost next to nothing; least points along a strip, which are
     ! cheap.
     integer, parameter :: hertz_strips = usual_strips, least_points = usual_strips
@@ -202,10 +200,10 @@ contains
 
         integer :: n
 
-        call try_ellipse(search, workspace)
+        if (search%wanted%ellipse) call try_ellipse(search, workspace)
         if (workspace%steps%is_met .or. is_left(search, workspace) &
             .or. is_spent(search, workspace%steps)) return
-        n = first_strips
+        n = search%wanted%first_strips
         if (warm_start .and. workspace%first_strips > 0) n = workspace%first_strips
         n = min(n, search%wanted%most_strips)
         search%case%warm_start = warm_start
@@ -591,7 +589,7 @@ contains
         if (taken%is_met) &
             n = min(n, odd_number(n*(taken%estimate/(margin*search%wanted%tolerance)) &
                                   **(1.0_wp/usual_order)))
-        n = max(n, first_strips)
+        n = max(n, search%wanted%first_strips)
     end function strips_next_time
 
     !> Forces on the solution that is taken.

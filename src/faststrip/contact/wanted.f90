@@ -62,6 +62,9 @@ module faststrip_contact_wanted
             !! largest estimated error; 0: the least within the budget
         real(wp) :: budget_us = 0.0_wp    !! time for it, us; 0: as long as it takes
         integer :: most_strips = strips_auto_most !! across the largest patch, 3 to 81
+        ! Tuned [strips]. Origin: fewer are hardly cheaper.
+        integer :: first_strips = 7       !! of the first answer by strips
+        logical :: ellipse = .true.       !! may a Hertz ellipse be the answer?
         type(others_t) :: others = others_t()
             !! finer methods of the caller: what strips are not expected to meet, or not sooner, is
             !! left to them at once, instead of coming as near as strips can

@@ -13,6 +13,7 @@ module faststrip_wheelset_types
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_lookup_faces, only: lookup_cubic
     use faststrip_lookup_table, only: lookup_t
+    use faststrip_tangential_force_errors, only: force_errors_t
     implicit none
     private
 
@@ -157,6 +158,9 @@ module faststrip_wheelset_types
         type(region_t) :: region(most_contacts)       !! of the last solution
         real(wp) :: left_out(most_contacts) = 0.0_wp
             !! how far their gaps are from what strips take them for, over the penetration
+        real(wp) :: ellipse_part(most_contacts) = 0.0_wp
+            !! part of their forces that auto has from a Hertz ellipse beside strips
+        type(force_errors_t) :: ellipse_errors(most_contacts) !! of such an ellipse
         logical :: is_guided = .false.
             !! is a height being looked for by strips, for another method to take?
     end type wheel_workspace_t

@@ -14,13 +14,15 @@ module faststrip_wheelset_wheel
     use faststrip_contact_methods, only: contact_methods_t, normal_auto, normal_strip, &
                                          normal_hertz, tangential_linear, tangential_none
     use faststrip_contact_target, only: target_error, name_target
-    use faststrip_contact_wanted, only: needs_forces
+    use faststrip_contact_wanted, only: wanted_t, needs_forces
+    use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_normal_cells_lattice, only: lend_elements
     use faststrip_geometry_gap, only: gap_t
     use faststrip_wheelset_guide, only: needs_guide, take_guide
     use faststrip_geometry_contact_frame, only: contact_frame_t, frame_gap_t, place_frame, &
                                                 in_track, along_normal
     use faststrip_normal_limitations, only: name_resolution
+    use faststrip_normal_strips, only: usual_strips
     use faststrip_normal_strip_places, only: find_displaced, value_between
     use faststrip_geometry_contact_yawed, only: find_frame_gap
     use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
@@ -56,6 +58,9 @@ module faststrip_wheelset_wheel
     ! contacts against their exact gaps: where a joint of the profile crosses strips pmax is up to
     ! 8 % too small, nine times what the gap bulges by.
     real(wp), parameter :: left_of_pmax = 10.0_wp, left_of_penetration = 1.5_wp
+    ! Tuned [1]: part of the tolerance of auto up to which an ellipse alone answers. Origin: chosen:
+    ! half of it is 0.2 to 0.7 mm of a wheel's way.
+    real(wp), parameter :: blend_from = 0.5_wp
     ! Tuned [1]: largest part of what is missed that a step takes. Origin: safeguard: most take 0.7
     ! to 1.3.
     real(wp), parameter :: most_part = 3.0_wp
@@ -88,6 +93,7 @@ contains
         case = model%case
         case%by_load = .false.
         case%estimate = .false.
+        case%wanted%first_strips = usual_strips
         case%asked%strip_forces = .true.
         if (workspace%is_guided) call take_guide(case)
         ! Named where the wheelset came to rest.
@@ -202,14 +208,18 @@ contains
             case%force_limit = huge(1.0_wp)
         end if
         do i = 1, wheel%n
-            ! Auto knows them already but where strips have places.
-            if (is_auto .and. .not. workspace%contact(i)%strips%has_places) cycle
-            if (is_auto) case%methods = workspace%contact(i)%methods
             associate (contact => wheel%contact(i), figures => wheel%contact(i)%figures)
+                ! Auto knows them already but where strips have places.
+                if (is_auto .and. .not. workspace%contact(i)%strips%has_places) then
+                    call add_ellipse(workspace, i, figures%force_errors)
+                    cycle
+                end if
+                if (is_auto) case%methods = workspace%contact(i)%methods
                 case%penetration = figures%normal%penetration
                 call take_motion(model, contact, case)
                 call estimate_contact(workspace%contact(i), case, figures, contact%status)
                 if (is_error(contact%status) .or. .not. figures%is_estimated) cycle
+                call add_ellipse(workspace, i, figures%force_errors)
                 associate (errors => figures%normal_errors, left => workspace%left_out(i))
                     errors%est_err_pmax = errors%est_err_pmax + left_of_pmax*left
                     errors%est_err_penetration = errors%est_err_penetration &
@@ -227,6 +237,20 @@ contains
             end associate
         end do
     end subroutine estimate_wheel
+
+    ! Estimates of the forces of both, where an ellipse has a part in them.
+    pure subroutine add_ellipse(workspace, i, errors)
+        type(wheel_workspace_t), intent(in) :: workspace
+        integer, intent(in) :: i                      ! which contact
+        type(force_errors_t), intent(inout) :: errors ! of the strips
+
+        associate (part => workspace%ellipse_part(i), its => workspace%ellipse_errors(i))
+            errors%fx = errors%fx + part*(its%fx - errors%fx)
+            errors%fy = errors%fy + part*(its%fy - errors%fy)
+            errors%mz = errors%mz + part*(its%mz - errors%mz)
+            errors%arm = errors%arm + part*(its%arm - errors%arm)
+        end associate
+    end subroutine add_ellipse
 
     !> What profiles, as exact as the model says, leave open of each normal force.
     !>
@@ -354,10 +378,11 @@ contains
         type(contact_case_t), intent(inout) :: case
         type(wheel_contact_t), intent(inout) :: contact
 
+        type(wheel_contact_t) :: ellipse
         type(contact_frame_t) :: frame
         type(wheelset_axes_t) :: axes
         type(rail_state_t) :: rail
-        real(wp) :: height, place(3)
+        real(wp) :: height, place(3), share
 
         axes = lowered_axes(workspace, lowered)
         height = model%gap_height
@@ -387,14 +412,77 @@ contains
         if (is_error(contact%status)) return
         call place_on_wheel(pair, axes, frame%origin, contact)
         call take_motion(model, contact, case)
-        if (workspace%gap%runs) then
-            call solve_in_places(workspace%gap, workspace%contact(i), case, contact)
+        call solve_and_sum()
+        workspace%ellipse_part(i) = 0.0_wp
+        if (is_error(contact%status) .or. case%methods%normal /= normal_auto) return
+        share = share_of_strips(case%wanted, workspace%contact(i))
+        if (.not. share > 0.0_wp) return
+        ellipse = contact
+        case%wanted%ellipse = .false.
+        call solve_and_sum()
+        case%wanted%ellipse = .true.
+        if (is_error(contact%status)) then
+            ! As where strips that the tolerance asks for are not found.
+            contact = ellipse
+            call solve_and_sum()
         else
-            call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
+            call hand_to_strips(ellipse, share, contact)
+            workspace%ellipse_part(i) = 1.0_wp - share
+            workspace%ellipse_errors(i) = ellipse%figures%force_errors
         end if
-        if (is_error(contact%status)) return
-        call find_contact_force(model, axes, contact)
+
+    contains
+
+        subroutine solve_and_sum()
+            if (workspace%gap%runs) then
+                call solve_in_places(workspace%gap, workspace%contact(i), case, contact)
+            else
+                call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
+            end if
+            if (.not. is_error(contact%status)) call find_contact_force(model, axes, contact)
+        end subroutine solve_and_sum
     end subroutine solve_one
+
+    ! The share of strips where auto took a Hertz ellipse: forces of a motion go over from one to
+    ! the other while the ellipse's estimate goes from a part of the tolerance to all of it.
+    pure real(wp) function share_of_strips(wanted, workspace) result(share)
+        type(wanted_t), intent(in) :: wanted
+        type(workspace_t), intent(in) :: workspace ! solved
+
+        share = 0.0_wp
+        if (workspace%solved_by /= normal_hertz .or. wanted%tolerance <= 0.0_wp) return
+        share = workspace%steps%estimate/wanted%tolerance
+        share = max(0.0_wp, min((share - blend_from)/(1.0_wp - blend_from), 1.0_wp))
+    end function share_of_strips
+
+    ! Forces of both; patch and pressures are those of the strips.
+    pure subroutine hand_to_strips(ellipse, share, contact)
+        type(wheel_contact_t), intent(in) :: ellipse
+        real(wp), intent(in) :: share                   ! of the strips, 0 to 1
+        type(wheel_contact_t), intent(inout) :: contact ! by strips; gets the sums of both
+
+        contact%force = mixed(ellipse%force, contact%force)
+        contact%force_wheelset = mixed(ellipse%force_wheelset, contact%force_wheelset)
+        contact%moment = mixed(ellipse%moment, contact%moment)
+        associate (mine => contact%figures, its => ellipse%figures)
+            mine%normal%load = mixed(its%normal%load, mine%normal%load)
+            mine%moment = mixed(its%moment, mine%moment)
+            associate (a => its%tangential, b => mine%tangential)
+                b%fx = mixed(a%fx, b%fx)
+                b%fy = mixed(a%fy, b%fy)
+                b%mz = mixed(a%mz, b%mz)
+                b%friction_power = mixed(a%friction_power, b%friction_power)
+            end associate
+        end associate
+
+    contains
+
+        elemental real(wp) function mixed(of_ellipse, of_strips)
+            real(wp), intent(in) :: of_ellipse, of_strips
+
+            mixed = of_ellipse + share*(of_strips - of_ellipse)
+        end function mixed
+    end subroutine hand_to_strips
 
     ! A contact whose strips have places along x: first pressures, then the forces where they are.
     ! Auto tells as how many strips it is solved; elements of Kalker's methods have no such places.
