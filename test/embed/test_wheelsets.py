@@ -554,6 +554,41 @@ class Interfaces(HostTest):
             self.assertLess(abs(many[8] / 8e4 - 1.0), 0.25)
             self.assertGreater(np.abs(np.diff(one, 2)).max(), 2e4)
 
+    def test_contacts_become_one_without_a_jump(self):
+        # Over 2 um forces changed by up to 3.2 kN beside their course, where regions of overlap
+        # became one contact: bodies were pressed in by the others' loads, and slid in one plane,
+        # from there on only.
+        package = self.import_package()
+        for rail, load, y, curved in (("uic60", 1e5, 5.851, False), ("54e1", 1.1e5, 5.859, False),
+                                      ("uic60", 6e4, 6.103, False), ("60e1", 1e5, 5.997, False),
+                                      ("uic60", 6e4, 6.103, True)):
+            wheelset = package.Wheelset(rail=rail, inclination=0.05, curved=curved)
+            state = {"yaw": 1e-3, "y_rate": 5.0, "speed": 2e4, "roll": 0.0, "wheels": "right"}
+            places = y + 2e-3 * np.arange(-6.5, 7.0)
+            ends = [float(wheelset.solve(y=at, load=load, **state).z[0]) for at in places[[0, -1]]]
+            forces, contacts = [], []
+            for at, z in zip(places, np.linspace(*ends, len(places))):
+                found = wheelset.solve(y=at, z=z, warm_start=True, **state)
+                forces.append(found.force[0])
+                contacts.append(len(found.contacts))
+            with self.subTest(rail=rail, load=load, y=y, curved=curved):
+                self.assertGreater(len(set(contacts)), 1)
+                self.assertLess(np.abs(np.diff(forces, 2, axis=0)).max(), 5e-3 * load)
+
+    def test_a_contact_that_others_press_away_bears_nothing(self):
+        # It overlaps by as much as one that bears 3 kN alone.
+        package = self.import_package()
+        state = {"yaw": 1e-3, "y_rate": 5.0, "speed": 2e4, "roll": 0.0, "wheels": "right"}
+        found = package.Wheelset(rail="54e1", inclination=0.05).solve(y=5.864, load=1.1e5, **state)
+        self.assertEqual([contact.word for contact in found.contacts], ["conformal", "ok"])
+        self.assertLess(found.contacts[1].load, 10.0)
+        self.assertLess(found.contacts[1].penetration, 1e-3)
+        cold = package.Wheelset(rail="54e1", inclination=0.05)
+        z = float(found.z[0])
+        cold.solve(y=5.86, z=z, **state)
+        warm = cold.solve(y=5.864, z=z, warm_start=True, **state)
+        self.assertLess(np.abs(np.subtract(warm.force[0], found.force[0])).max(), 0.1)
+
     def test_auto_goes_from_ellipses_to_strips_without_a_jump(self):
         # An ellipse and strips differ by up to 2.3 kN where its estimate meets the tolerance.
         package = self.import_package()

@@ -38,8 +38,9 @@ module faststrip_wheelset_solve
                                         wheelset_workspace_t, &
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load, demand_rest, most_contacts
-    use faststrip_wheelset_wheel, only: estimate_wheel, estimate_loads, name_pressures, &
-                                        mirror_wheel, reverse_wheel, lend_scratch
+    use faststrip_wheelset_wheel, only: estimate_wheel, name_pressures, mirror_wheel, &
+                                        reverse_wheel, lend_scratch
+    use faststrip_wheelset_wheel_neighbours, only: estimate_loads
     implicit none
     private
 
@@ -909,11 +910,11 @@ contains
         integer :: side, i
 
         if (demand%kind == demand_axle_load .and. .not. demand%roll_is_free) then
-            call estimate_loads(model, .true., result%wheel)
+            call estimate_loads(model, .true., workspace%wheel, result%wheel)
         else
             do side = side_right, side_left
                 call estimate_loads(model, demand%kind /= demand_position, &
-                                    result%wheel(side:side))
+                                    workspace%wheel(side:side), result%wheel(side:side))
             end do
         end if
         ! A force that jumped over the load concerns every contact.

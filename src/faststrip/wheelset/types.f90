@@ -109,6 +109,7 @@ module faststrip_wheelset_types
         real(wp) :: place(3) = 0.0_wp               !! reference point in the track, mm
         real(wp) :: angle = 0.0_wp                  !! contact angle, rad
         real(wp) :: turn = 0.0_wp                   !! of its frame about y, on a roller, rad
+        real(wp) :: lift = 0.0_wp                   !! as of its frame, mm
         real(wp) :: rail(2) = 0.0_wp                !! y, z of it on the rail's profile, mm
         real(wp) :: wheel(3) = 0.0_wp               !! x, y, z of it in the frame of the wheel's
                                                     !! profile, mm
@@ -158,6 +159,8 @@ module faststrip_wheelset_types
         type(region_t) :: region(most_contacts)       !! of the last solution
         real(wp) :: left_out(most_contacts) = 0.0_wp
             !! how far their gaps are from what strips take them for, over the penetration
+        real(wp) :: beside(most_contacts, most_contacts) = 0.0_wp
+            !! what the load of the second contact presses in at the first, over that load, mm/N
         real(wp) :: ellipse_part(most_contacts) = 0.0_wp
             !! part of their forces that auto has from a Hertz ellipse beside strips
         type(force_errors_t) :: ellipse_errors(most_contacts) !! of such an ellipse

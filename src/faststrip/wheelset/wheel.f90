@@ -11,22 +11,21 @@ module faststrip_wheelset_wheel
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, solve_contact_forces, &
                                        estimate_contact, name_yield
     use faststrip_contact_method, only: workspace_t
-    use faststrip_contact_methods, only: contact_methods_t, normal_auto, normal_strip, &
-                                         normal_hertz, tangential_linear, tangential_none
+    use faststrip_contact_methods, only: contact_methods_t, normal_table, normal_auto, &
+                                         normal_strip, normal_hertz, tangential_linear, &
+                                         tangential_none
     use faststrip_contact_target, only: target_error, name_target
     use faststrip_contact_wanted, only: wanted_t, needs_forces
     use faststrip_tangential_force_errors, only: force_errors_t
     use faststrip_normal_cells_lattice, only: lend_elements
     use faststrip_geometry_gap, only: gap_t
     use faststrip_wheelset_guide, only: needs_guide, take_guide
-    use faststrip_geometry_contact_frame, only: contact_frame_t, frame_gap_t, place_frame, &
-                                                in_track, along_normal
+    use faststrip_geometry_contact_frame, only: contact_frame_t, frame_gap_t, in_track, along_normal
     use faststrip_normal_limitations, only: name_resolution
     use faststrip_normal_strips, only: usual_strips
     use faststrip_normal_strip_places, only: find_displaced, value_between
     use faststrip_geometry_contact_yawed, only: find_frame_gap
-    use faststrip_geometry_overlap, only: region_t, find_regions, join_regions, &
-                                          region_distance, most_regions
+    use faststrip_geometry_overlap, only: region_t, find_regions, most_regions
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_origin, on_rail_profile, &
                                                 unrolled
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
@@ -34,11 +33,11 @@ module faststrip_wheelset_wheel
                                                  approach_rate, rail_velocity, cross
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
                                         wheel_workspace_t
-    use faststrip_wheelset_approach, only: hertz_power
+    use faststrip_wheelset_wheel_neighbours, only: join_near, place_frames, press_gap
     implicit none
     private
 
-    public :: solve_wheel_at, estimate_wheel, estimate_loads
+    public :: solve_wheel_at, estimate_wheel
     public :: name_pressures, mirror_wheel, reverse_wheel
     public :: take_motion, move_wheel, lend_scratch, find_motion, find_contact_force, place_on_wheel
     public :: add_contacts
@@ -84,10 +83,13 @@ contains
 
         type(region_t) :: regions(most_regions)
         type(contact_case_t) :: case
-        integer :: i, n
+        type(contact_frame_t) :: frames(most_regions)
+        real(wp) :: near(most_regions), load, left
+        integer :: i, n, pass
+        logical :: are_near, is_at_rest
 
         call find_regions(pair, workspace%outline, lowered, regions, n)
-        call join_near(model, regions, n)
+        call join_near(model, regions, n, near)
         wheel%n = n
         call clear_status(wheel%status)
         case = model%case
@@ -110,20 +112,41 @@ contains
         end if
         workspace%n = n
         workspace%region(:n) = regions(:n)
-        do i = 1, n
-            associate (contact => wheel%contact(i))
-                contact = wheel_contact_t()
-                call lend_scratch(workspace, 1, i)
-                call solve_one(model, pair, workspace, i, regions(i), state, lowered, case, contact)
-                call lend_scratch(workspace, i, 1)
-                wheel%solutions = wheel%solutions + 1
-                if (worse(contact%status, wheel%status)) wheel%status = contact%status
-                if (is_error(contact%status)) then
-                    if (.not. case%stays) workspace%n = 0
-                    return
-                end if
-            end associate
+        call place_frames(pair, workspace%outline%state%rail(1), regions(:n), near(:n), &
+                          case%curved, frames(:n))
+        ! Kalker's methods leave no strips.
+        are_near = any(near(:n - 1) > 0.0_wp) .and. &
+                   any(normal_table%number == case%methods%normal .and. normal_table%in_core)
+        if (.not. are_near) near = 0.0_wp
+        if (are_near .and. .not. case%warm_start) workspace%contact(:n)%strips%n = 0
+        do pass = 1, most_steps
+            left = 0.0_wp
+            call clear_status(wheel%status)
+            do i = 1, n
+                associate (contact => wheel%contact(i))
+                    load = contact%figures%normal%load
+                    contact = wheel_contact_t()
+                    call lend_scratch(workspace, 1, i)
+                    call solve_one(model, pair, workspace, i, regions(i), frames(:n), near(:n), &
+                                   state, lowered, case, contact)
+                    call lend_scratch(workspace, i, 1)
+                    wheel%solutions = wheel%solutions + 1
+                    if (worse(contact%status, wheel%status)) wheel%status = contact%status
+                    if (is_error(contact%status)) then
+                        if (.not. case%stays) workspace%n = 0
+                        return
+                    end if
+                    left = max(left, abs(contact%figures%normal%load - load))
+                end associate
+            end do
+            left = left/max(maxval(wheel%contact(:n)%figures%normal%load), tiny(left))
+            is_at_rest = .not. are_near .or. pass > 1 .and. &
+                         left <= merge(1.0_wp, places_share, case%stays)*case%strip_tolerance
+            if (is_at_rest) exit
+            case%warm_start = .not. needs_guide(case)
         end do
+        if (.not. is_at_rest) call add_limitation(wheel%status, st_under_resolved, &
+                                                  'contacts that press each other do not converge')
         call add_contacts(wheel)
     end subroutine solve_wheel_at
 
@@ -147,7 +170,8 @@ contains
             associate (contact => wheel%contact(i))
                 case%penetration = contact%figures%normal%penetration
                 call find_motion(model, pair, state, axes, &
-                                 contact_frame_t(contact%place, contact%angle, contact%turn), &
+                                 contact_frame_t(contact%place, contact%angle, contact%turn, &
+                                                 contact%lift), &
                                  case, contact)
                 if (.not. is_error(contact%status)) then
                     call take_motion(model, contact, case)
@@ -252,52 +276,6 @@ contains
         end associate
     end subroutine add_ellipse
 
-    !> What profiles, as exact as the model says, leave open of each normal force.
-    !>
-    !> A contact whose gap is wrong by eps along its normal has an approach that is wrong by
-    !> c dz - eps, c the cosine of its angle, and N grows by k = 3/2 N/penetration with it (Hertz).
-    !> Where a load is given the wheels that carry it move by dz, so that the sum of the vertical
-    !> forces stays: one contact is as exact as its load, two share the error.
-    pure subroutine estimate_loads(model, load_is_given, wheels)
-        type(wheelset_model_t), intent(in) :: model       !! its accuracy of profiles
-        logical, intent(in) :: load_is_given              !! of all these wheels, or their height?
-        type(wheel_result_t), intent(inout) :: wheels(:)  !! solved
-
-        real(wp) :: slope, total, absolute
-        integer :: side, i
-
-        total = 0.0_wp
-        absolute = 0.0_wp
-        do side = 1, size(wheels)
-            do i = 1, wheels(side)%n
-                slope = load_slope(wheels(side)%contact(i))*wheels(side)%contact(i)%force(3)
-                total = total + slope*cos(wheels(side)%contact(i)%angle)
-                absolute = absolute + abs(slope)
-            end do
-        end do
-        do side = 1, size(wheels)
-            do i = 1, wheels(side)%n
-                associate (contact => wheels(side)%contact(i))
-                    contact%est_err_load = model%profile_accuracy*load_slope(contact)
-                    if (.not. (load_is_given .and. total > 0.0_wp)) cycle
-                    slope = load_slope(contact)*contact%force(3)
-                    contact%est_err_load = contact%est_err_load &
-                        *(abs(total - cos(contact%angle)*slope) &
-                          + cos(contact%angle)*(absolute - abs(slope)))/total
-                end associate
-            end do
-        end do
-    end subroutine estimate_loads
-
-    ! How the normal force of a contact grows with its approach, over the force, 1/mm.
-    pure real(wp) function load_slope(contact)
-        type(wheel_contact_t), intent(in) :: contact
-
-        load_slope = 0.0_wp
-        if (contact%figures%normal%penetration > 0.0_wp) &
-            load_slope = hertz_power/contact%figures%normal%penetration
-    end function load_slope
-
     !> Name pressures of a wheel above the limit that the user has set; its status becomes the worst
     !> of its contacts'.
     pure subroutine name_pressures(limit, wheel)
@@ -321,58 +299,15 @@ contains
         worse = is_error(status) .and. .not. is_error(than) .or. than%code == 0
     end function worse
 
-    ! Regions that are near to each other are one contact.
-    pure subroutine join_near(model, regions, n)
-        type(wheelset_model_t), intent(in) :: model
-        type(region_t), intent(inout) :: regions(:)
-        integer, intent(inout) :: n
-
-        integer :: i, kept
-
-        kept = min(n, 1)
-        do i = 2, n
-            if (region_distance(regions(kept), regions(i)) < model%join_distance) then
-                regions(kept) = join_regions(regions(kept), regions(i))
-            else
-                kept = kept + 1
-                regions(kept) = regions(i)
-            end if
-        end do
-        n = kept
-        call turn_near(model, regions, n)
-    end subroutine join_near
-
-    ! Contacts turn towards their common angle the nearer they come, so that forces do not jump
-    ! where they become one.
-    pure subroutine turn_near(model, regions, n)
-        type(wheelset_model_t), intent(in) :: model
-        type(region_t), intent(inout) :: regions(:)
-        integer, intent(in) :: n
-
-        type(region_t) :: whole
-        real(wp) :: turn(most_regions), share
-        integer :: i
-
-        turn = 0.0_wp
-        do i = 1, n - 1
-            share = (model%turn_distance - region_distance(regions(i), regions(i + 1))) &
-                    /(model%turn_distance - model%join_distance)
-            if (.not. share > 0.0_wp) cycle
-            whole = join_regions(regions(i), regions(i + 1))
-            turn(i) = turn(i) + share*(whole%angle - regions(i)%angle)
-            turn(i + 1) = turn(i + 1) + share*(whole%angle - regions(i + 1)%angle)
-        end do
-        do i = 1, n
-            regions(i)%angle = regions(i)%angle + turn(i)
-        end do
-    end subroutine turn_near
-
-    subroutine solve_one(model, pair, workspace, i, region, state, lowered, case, contact)
+    subroutine solve_one(model, pair, workspace, i, region, frames, near, state, lowered, case, &
+                         contact)
         type(wheelset_model_t), intent(in) :: model
         type(wheel_on_rail_t), intent(in) :: pair
         type(wheel_workspace_t), intent(inout) :: workspace
         integer, intent(in) :: i
         type(region_t), intent(in) :: region
+        type(contact_frame_t), intent(in) :: frames(:) ! of all contacts
+        real(wp), intent(in) :: near(:)
         type(wheelset_state_t), intent(in) :: state
         real(wp), intent(in) :: lowered
         type(contact_case_t), intent(inout) :: case
@@ -388,10 +323,11 @@ contains
         height = model%gap_height
         if (case%stays) height = min(height, near_height*region%depth)
         rail = workspace%outline%state%rail(1)
-        call place_frame(pair, rail, region, frame)
+        frame = frames(i)
         call find_frame_gap(pair, workspace%outline, region, lowered, frame, height, &
                             case%smoothing > 0.0_wp, workspace%gap, contact%status)
         if (is_error(contact%status)) return
+        call press_gap(workspace, i, frames, near, normal_compliance(case%material))
         associate (gap => workspace%gap, n => workspace%gap%n)
             case%penetration = gap%overlap
             if (case%smoothing > 0.0_wp) then
@@ -406,6 +342,7 @@ contains
         contact%place = frame%origin
         contact%angle = frame%angle
         contact%turn = frame%turn
+        contact%lift = frame%lift
         place = unrolled(pair, rail, frame%origin)
         contact%rail = on_rail_profile(pair, rail, place(2:3))
         call find_motion(model, pair, state, axes, frame, case, contact)
@@ -644,7 +581,7 @@ contains
         real(wp) :: point(3), moving(3)
 
         ! Velocities are those of the wheel's surface before it is deformed.
-        point = along_normal(frame, case%penetration)
+        point = along_normal(frame, case%penetration + frame%lift)
         associate (rail => state%rail(1), c => contact%creepage)
             moving = rail_velocity(rail, frame%origin(2:3) - rail_origin(pair, rail))
             if (pair%roller_radius > 0.0_wp) then

@@ -44,6 +44,8 @@ module faststrip_geometry_contact_frame
         real(wp) :: origin(3) = 0.0_wp !! reference point on the rail, in the track, mm
         real(wp) :: angle = 0.0_wp     !! contact angle, about x, rad
         real(wp) :: turn = 0.0_wp      !! then about y, on a roller, rad
+        real(wp) :: lift = 0.0_wp      !! how far below the origin, along the normal, the plane is
+                                       !! in which bodies slide, mm
     end type contact_frame_t
 
     ! A point on a rail's profile.

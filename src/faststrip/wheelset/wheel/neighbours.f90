@@ -1,0 +1,249 @@
+!> Contacts of one wheel that lie beside each other: when they are one, what they do before.
+!>
+!> Regions of overlap that are nearer than a distance are one contact, whose patches press each
+!> other's bodies in and slide in one plane. From half as far again on they come to do so by and by:
+!> they turn towards the common angle, slide in the common plane, and what the strips of one press
+!> in at another raises its gap. So no force jumps where they become one.
+module faststrip_wheelset_wheel_neighbours
+    use faststrip_base_kinds, only: wp, pi
+    use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, in_track
+    use faststrip_geometry_overlap, only: region_t, join_regions, region_distance, most_regions
+    use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t
+    use faststrip_geometry_wheelset_state, only: rail_state_t
+    use faststrip_normal_strip_places, only: add_pressed
+    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_numerics_lu, only: lu_factor, lu_solve
+    use faststrip_wheelset_approach, only: hertz_power
+    use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
+                                        wheel_workspace_t, most_contacts
+    implicit none
+    private
+
+    public :: join_near, place_frames, press_gap, estimate_loads
+
+    ! Tuned [1]: of its overlap that the contacts beside it leave a contact to bear. Origin: chosen:
+    ! its load is next to nothing.
+    real(wp), parameter :: least_left = 1.0e-3_wp
+
+contains
+
+    !> Regions that are near to each other are one contact.
+    pure subroutine join_near(model, regions, n, near)
+        type(wheelset_model_t), intent(in) :: model     !! its distances
+        type(region_t), intent(inout) :: regions(:)     !! found; joined and turned
+        integer, intent(inout) :: n                     !! number of them
+        real(wp), intent(out) :: near(:)                !! how near each is to the next one, 0 to 1
+
+        integer :: i, kept
+
+        kept = min(n, 1)
+        do i = 2, n
+            if (region_distance(regions(kept), regions(i)) < model%join_distance) then
+                regions(kept) = join_regions(regions(kept), regions(i))
+            else
+                kept = kept + 1
+                regions(kept) = regions(i)
+            end if
+        end do
+        n = kept
+        call turn_near(model, regions, n, near)
+    end subroutine join_near
+
+    ! Contacts turn towards their common angle the nearer they come, so that forces do not jump
+    ! where they become one.
+    pure subroutine turn_near(model, regions, n, near)
+        type(wheelset_model_t), intent(in) :: model
+        type(region_t), intent(inout) :: regions(:)
+        integer, intent(in) :: n
+        real(wp), intent(out) :: near(:)
+
+        type(region_t) :: whole
+        real(wp) :: turn(most_regions)
+        integer :: i
+
+        turn = 0.0_wp
+        near = 0.0_wp
+        do i = 1, n - 1
+            near(i) = (model%turn_distance - region_distance(regions(i), regions(i + 1))) &
+                      /(model%turn_distance - model%join_distance)
+            near(i) = max(near(i), 0.0_wp)
+            if (.not. near(i) > 0.0_wp) cycle
+            whole = join_regions(regions(i), regions(i + 1))
+            turn(i) = turn(i) + near(i)*(whole%angle - regions(i)%angle)
+            turn(i + 1) = turn(i + 1) + near(i)*(whole%angle - regions(i + 1)%angle)
+        end do
+        do i = 1, n
+            regions(i)%angle = regions(i)%angle + turn(i)
+        end do
+    end subroutine turn_near
+
+    !> The frames of all contacts of a wheel. On planes those that are near slide in that of the
+    !> whole that they are going to be.
+    pure subroutine place_frames(pair, rail, regions, near, curved, frames)
+        type(wheel_on_rail_t), intent(in) :: pair       !! made
+        type(rail_state_t), intent(in) :: rail          !! as it lies
+        type(region_t), intent(in) :: regions(:)        !! of `join_near`
+        real(wp), intent(in) :: near(:)                 !! of it
+        logical, intent(in) :: curved                   !! do strips slide in their own planes?
+        type(contact_frame_t), intent(out) :: frames(:) !! mm, rad
+
+        type(contact_frame_t) :: whole
+        integer :: i, k
+
+        do i = 1, size(regions)
+            call place_frame(pair, rail, regions(i), frames(i))
+        end do
+        if (curved) return
+        do i = 1, size(regions) - 1
+            if (.not. near(i) > 0.0_wp) cycle
+            call place_frame(pair, rail, join_regions(regions(i), regions(i + 1)), whole)
+            do k = i, i + 1
+                frames(k)%lift = frames(k)%lift + near(i) &
+                                 *dot_product(whole%origin - frames(k)%origin, &
+                                              in_track(frames(k), [0.0_wp, 0.0_wp, 1.0_wp]))
+            end do
+        end do
+    end subroutine place_frames
+
+    !> What the contacts beside a contact press its bodies in by: the nearer, the more of it counts,
+    !> and all of it where they become one. It is left a little to bear.
+    pure subroutine press_gap(workspace, i, frames, near, compliance)
+        type(wheel_workspace_t), intent(inout) :: workspace
+            !! with strips of the others, as far as known, and the gap of this one, which changes
+        integer, intent(in) :: i                       !! which contact
+        type(contact_frame_t), intent(in) :: frames(:) !! of all contacts
+        real(wp), intent(in) :: near(:)                !! of `join_near`
+        real(wp), intent(in) :: compliance             !! H of eq. (4), 1/MPa
+
+        real(wp) :: across(3), along, part, before
+        integer :: j, lowest
+
+        workspace%beside(i, :) = 0.0_wp
+        if (.not. any(near([max(i - 1, 1), i]) > 0.0_wp)) return
+        lowest = minloc(workspace%gap%h(:workspace%gap%n), dim=1)
+        associate (gap => workspace%gap, n => workspace%gap%n)
+            gap%lower(:n, 1) = 0.0_wp
+            gap%tilt(:n, 1) = 0.0_wp
+            gap%bend(:n, 1) = 0.0_wp
+            do j = 1, size(frames)
+                part = product(near(min(i, j):max(i, j) - 1))
+                if (j == i .or. .not. part > 0.0_wp) cycle
+                across = in_track(frames(j), [0.0_wp, 1.0_wp, 0.0_wp])
+                along = dot_product(across, in_track(frames(i), [0.0_wp, 1.0_wp, 0.0_wp]))
+                before = gap%lower(lowest, 1)
+                call add_pressed(workspace%contact(j)%strips, part*along*compliance, &
+                                 frames(i)%origin(1) - frames(j)%origin(1), &
+                                 dot_product(frames(i)%origin - frames(j)%origin, across), along, &
+                                 gap%overlap, gap%y(:n), gap%h(:n), gap%inv2r(:n), &
+                                 gap%lower(:n, 1), gap%tilt(:n, 1), gap%bend(:n, 1))
+                workspace%beside(i, j) = (gap%lower(lowest, 1) - before) &
+                                         /max(load_of(workspace%contact(j)%strips), tiny(part))
+            end do
+            part = max((1.0_wp - least_left)*gap%overlap - gap%h(lowest), 0.0_wp)
+            part = part/max(gap%lower(lowest, 1), part, tiny(part))
+            workspace%beside(i, :) = part*workspace%beside(i, :)
+            gap%overlap = gap%overlap - part*gap%lower(lowest, 1)
+            gap%h(:n) = gap%h(:n) + part*(gap%lower(:n, 1) - gap%lower(lowest, 1))
+            gap%slope(:n) = gap%slope(:n) + part*gap%tilt(:n, 1)
+            gap%inv2r(:n) = max(gap%inv2r(:n) + part*gap%bend(:n, 1), 0.5_wp*gap%inv2r(:n))
+        end associate
+    end subroutine press_gap
+
+    ! The load of strips, N.
+    pure real(wp) function load_of(strips) result(load)
+        type(contact_strips_t), intent(in) :: strips
+
+        associate (n => strips%n)
+            load = 0.5_wp*pi*sum(strips%p0(:n)*strips%half_length(:n) &
+                                 *(strips%y_right(:n) - strips%y_left(:n)))
+        end associate
+    end function load_of
+
+    !> What profiles, as exact as the model says, leave open of each normal force.
+    !>
+    !> A contact whose gap is wrong by eps along its normal has an approach that is wrong by
+    !> c dz - eps - sum_j C_j dN_j, c the cosine of its angle, C_j what the load of another presses
+    !> its bodies in by, and N grows by k = 3/2 N/penetration with it (Hertz). Where a load is given
+    !> the wheels that carry it move by dz, so that the sum of the vertical forces stays: one
+    !> contact is as exact as its load, two share the error.
+    pure subroutine estimate_loads(model, load_is_given, workspaces, wheels)
+        type(wheelset_model_t), intent(in) :: model       !! its accuracy of profiles
+        logical, intent(in) :: load_is_given              !! of all these wheels, or their height?
+        type(wheel_workspace_t), intent(in) :: workspaces(:) !! of their solutions
+        type(wheel_result_t), intent(inout) :: wheels(:)  !! solved
+
+        ! Of the loads: by the gap of each contact, by the height; of the vertical force by a gap.
+        real(wp) :: by_gap(most_contacts, most_contacts, 2), by_height(most_contacts, 2), &
+            of_sum(most_contacts, 2), total, all, moved
+        integer :: side, i
+
+        total = 0.0_wp
+        all = 0.0_wp
+        do side = 1, size(wheels)
+            associate (n => wheels(side)%n, contact => wheels(side)%contact)
+                ! Contacts of a table are not beside each other.
+                call find_slopes(contact(:n), merge(1.0_wp, 0.0_wp, wheels(side)%solutions > 0) &
+                                 *workspaces(side)%beside, by_gap(:, :, side))
+                by_height(:n, side) = matmul(by_gap(:n, :n, side), cos(contact(:n)%angle))
+                of_sum(:n, side) = matmul(contact(:n)%force(3)/some_load(contact(:n)), &
+                                          by_gap(:n, :n, side))
+                all = all + sum(abs(of_sum(:n, side)))
+                total = total + dot_product(of_sum(:n, side), cos(contact(:n)%angle))
+            end associate
+        end do
+        do side = 1, size(wheels)
+            associate (n => wheels(side)%n, contact => wheels(side)%contact)
+                do i = 1, n
+                    moved = 0.0_wp
+                    if (load_is_given .and. total > 0.0_wp) moved = by_height(i, side)/total
+                    contact(i)%est_err_load = model%profile_accuracy/some_load(contact(i)) &
+                        *(sum(left_of(by_gap(i, :n, side), moved*of_sum(:n, side))) &
+                          + moved*(all - sum(abs(of_sum(:n, side)))))
+                end do
+            end associate
+        end do
+    end subroutine estimate_loads
+
+    ! How the loads grow as the gap of each contact alone is lowered, N/mm: (I + K C) S = K.
+    pure subroutine find_slopes(contact, beside, slope)
+        type(wheel_contact_t), intent(in) :: contact(:)
+        real(wp), intent(in) :: beside(:, :)  ! C, mm/N
+        real(wp), intent(out) :: slope(:, :)  ! S
+
+        real(wp) :: matrix(most_contacts, most_contacts), grows
+        integer :: pivot(most_contacts), i, n
+        logical :: singular
+
+        n = size(contact)
+        slope = 0.0_wp
+        matrix = 0.0_wp
+        do i = 1, n
+            grows = 0.0_wp
+            associate (normal => contact(i)%figures%normal)
+                if (normal%penetration > 0.0_wp) grows = hertz_power*normal%load/normal%penetration
+            end associate
+            matrix(i, :n) = grows*beside(i, :n)
+            matrix(i, i) = 1.0_wp
+            slope(i, i) = grows
+        end do
+        call lu_factor(n, matrix, pivot, singular)
+        if (singular) return
+        do i = 1, n
+            call lu_solve(n, matrix, pivot, slope(:, i))
+        end do
+    end subroutine find_slopes
+
+    ! What is left of a slope, but for rounding.
+    elemental real(wp) function left_of(slope, part)
+        real(wp), intent(in) :: slope, part
+
+        left_of = max(abs(slope - part) - 4.0_wp*epsilon(slope)*abs(slope), 0.0_wp)
+    end function left_of
+
+    ! The load of a contact, or next to nothing, N.
+    elemental real(wp) function some_load(contact)
+        type(wheel_contact_t), intent(in) :: contact
+
+        some_load = max(contact%figures%normal%load, tiny(1.0_wp))
+    end function some_load
+end module faststrip_wheelset_wheel_neighbours
