@@ -236,14 +236,15 @@ class Wheelset(ProgramTest):
                 self.assert_close(forces[0], 5e4, absolute=5.1, what=words)
                 self.assert_close(forces[1], 5e4, absolute=5.1, what=words)
                 self.assert_close(forces[2] + forces[3], 1e5, absolute=10.1, what=words)
-                # Auto takes no more strips than the forces of each contact need.
-                near = 0.2 if "kpec" in words else 0.04 if "auto" in words else 0.02
+                near = 0.2 if "kpec" in words else 0.02
                 for one, other in zip(rows, plain, strict=True):
                     for name in ("N_N", "pmax_MPa", "penetration_mm"):
                         self.assert_close(float(one[name]), float(other[name]), relative=near,
                                           what=f"{words} {name}")
-                    self.assertNotEqual([one[name] for name in FORCES],
-                                        [other[name] for name in FORCES])
+                    # For forces auto may take as many strips as are usual.
+                    if words != "normal='auto'":
+                        self.assertNotEqual([one[name] for name in FORCES],
+                                            [other[name] for name in FORCES])
                     self.assertEqual(one["est_err_pmax"] == "", "kpec" in words)
         self.write("twice.nml", CASE + "&numerics\n normal='norm' tangential='tang'\n/\n")
         once = self.solved(states[0], header=header, case="twice.nml")
