@@ -119,7 +119,7 @@ contains
         integer :: j, lowest
 
         workspace%beside(i, :) = 0.0_wp
-        if (.not. any(near([max(i - 1, 1), i]) > 0.0_wp)) return
+        if (.not. max(near(max(i - 1, 1)), near(i)) > 0.0_wp) return
         lowest = minloc(workspace%gap%h(:workspace%gap%n), dim=1)
         associate (gap => workspace%gap, n => workspace%gap%n)
             gap%lower(:n, 1) = 0.0_wp
@@ -174,62 +174,73 @@ contains
 
         ! Of the loads: by the gap of each contact, by the height; of the vertical force by a gap.
         real(wp) :: by_gap(most_contacts, most_contacts, 2), by_height(most_contacts, 2), &
-            of_sum(most_contacts, 2), total, all, moved
-        integer :: side, i
+            of_sum(most_contacts, 2), total, all, moved, left
+        integer :: side, i, j
 
         total = 0.0_wp
         all = 0.0_wp
+        by_height = 0.0_wp
+        of_sum = 0.0_wp
         do side = 1, size(wheels)
-            associate (n => wheels(side)%n, contact => wheels(side)%contact)
-                ! Contacts of a table are not beside each other.
-                call find_slopes(contact(:n), merge(1.0_wp, 0.0_wp, wheels(side)%solutions > 0) &
-                                 *workspaces(side)%beside, by_gap(:, :, side))
-                by_height(:n, side) = matmul(by_gap(:n, :n, side), cos(contact(:n)%angle))
-                of_sum(:n, side) = matmul(contact(:n)%force(3)/some_load(contact(:n)), &
-                                          by_gap(:n, :n, side))
-                all = all + sum(abs(of_sum(:n, side)))
-                total = total + dot_product(of_sum(:n, side), cos(contact(:n)%angle))
-            end associate
+            call find_slopes(wheels(side), workspaces(side)%beside, by_gap(:, :, side))
+            do j = 1, wheels(side)%n
+                do i = 1, wheels(side)%n
+                    associate (contact => wheels(side)%contact(i), slope => by_gap(i, j, side))
+                        by_height(i, side) = by_height(i, side) &
+                                             + slope*cos(wheels(side)%contact(j)%angle)
+                        of_sum(j, side) = of_sum(j, side) &
+                                          + slope*contact%force(3)/some_load(contact)
+                    end associate
+                end do
+                total = total + of_sum(j, side)*cos(wheels(side)%contact(j)%angle)
+                all = all + abs(of_sum(j, side))
+            end do
         end do
         do side = 1, size(wheels)
-            associate (n => wheels(side)%n, contact => wheels(side)%contact)
-                do i = 1, n
-                    moved = 0.0_wp
-                    if (load_is_given .and. total > 0.0_wp) moved = by_height(i, side)/total
-                    contact(i)%est_err_load = model%profile_accuracy/some_load(contact(i)) &
-                        *(sum(left_of(by_gap(i, :n, side), moved*of_sum(:n, side))) &
-                          + moved*(all - sum(abs(of_sum(:n, side)))))
+            do i = 1, wheels(side)%n
+                moved = 0.0_wp
+                if (load_is_given .and. total > 0.0_wp) moved = by_height(i, side)/total
+                ! Of all contacts, but those of this wheel by what they do themselves.
+                left = moved*all
+                do j = 1, wheels(side)%n
+                    left = left - moved*abs(of_sum(j, side)) &
+                           + left_of(by_gap(i, j, side), moved*of_sum(j, side))
                 end do
-            end associate
+                associate (contact => wheels(side)%contact(i))
+                    contact%est_err_load = model%profile_accuracy*max(left, 0.0_wp) &
+                                           /some_load(contact)
+                end associate
+            end do
         end do
     end subroutine estimate_loads
 
-    ! How the loads grow as the gap of each contact alone is lowered, N/mm: (I + K C) S = K.
-    pure subroutine find_slopes(contact, beside, slope)
-        type(wheel_contact_t), intent(in) :: contact(:)
-        real(wp), intent(in) :: beside(:, :)  ! C, mm/N
-        real(wp), intent(out) :: slope(:, :)  ! S
+    ! How the loads of a wheel grow as the gap of each contact alone is lowered, N/mm:
+    ! (I + K C) S = K.
+    pure subroutine find_slopes(wheel, beside, slope)
+        type(wheel_result_t), intent(in) :: wheel        ! solved
+        real(wp), intent(in) :: beside(:, :)             ! C, mm/N
+        real(wp), intent(out), contiguous :: slope(:, :) ! S
 
         real(wp) :: matrix(most_contacts, most_contacts), grows
-        integer :: pivot(most_contacts), i, n
+        integer :: pivot(most_contacts), i
         logical :: singular
 
-        n = size(contact)
         slope = 0.0_wp
         matrix = 0.0_wp
-        do i = 1, n
+        do i = 1, wheel%n
             grows = 0.0_wp
-            associate (normal => contact(i)%figures%normal)
+            associate (normal => wheel%contact(i)%figures%normal)
                 if (normal%penetration > 0.0_wp) grows = hertz_power*normal%load/normal%penetration
             end associate
-            matrix(i, :n) = grows*beside(i, :n)
+            ! Contacts of a table are not beside each other.
+            if (wheel%solutions > 0) matrix(i, :) = grows*beside(i, :)
             matrix(i, i) = 1.0_wp
             slope(i, i) = grows
         end do
-        call lu_factor(n, matrix, pivot, singular)
+        call lu_factor(wheel%n, matrix, pivot, singular)
         if (singular) return
-        do i = 1, n
-            call lu_solve(n, matrix, pivot, slope(:, i))
+        do i = 1, wheel%n
+            call lu_solve(wheel%n, matrix, pivot, slope(:, i))
         end do
     end subroutine find_slopes
 
