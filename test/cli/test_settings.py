@@ -139,7 +139,7 @@ class Settings(ProgramTest):
     def test_the_target_is_that_of_the_forces_asked_for_at_last(self):
         """Without forces auto is for pmax; an option that asks for forces asks for theirs."""
         state = "&state\n  y_mm = 1.0, yaw_rad = 0.001, speed_mm_s = 2e4, Fz_N = 1.6e5\n/\n"
-        words = ("--normal", "auto", "--tolerance", "0.03", "--tangential", "faststrip")
+        words = ("--normal", "auto", "--tolerance", "0.006", "--tangential", "faststrip")
         none = "&numerics\n  tangential = 'none'\n/\n"
         for case, command in ((profile_case(extra=state), "wheelset"), (profile_case(), "contact")):
             self.assertEqual(self.solved(case + none, *words, command=command),
