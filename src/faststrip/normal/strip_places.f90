@@ -103,12 +103,11 @@ contains
 
     !> What strips of another contact press the bodies in by: the gap is that much higher, and bends
     !> along x less.
-    pure subroutine add_pressed(strips, factor, x, offset, along, overlap, y, h, inv2r, height, &
-                                slope, bend)
+    pure subroutine add_pressed(strips, factor, origin, along, overlap, y, h, inv2r, height, slope, &
+                                bend)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         real(wp), intent(in) :: factor               !! H of eq. (4) times what of it counts, 1/MPa
-        real(wp), intent(in) :: x                    !! of the gap from the strips, mm
-        real(wp), intent(in) :: offset               !! where its y = 0 is in the strips' plane, mm
+        real(wp), intent(in) :: origin(2)            !! of the gap in the strips' plane, mm
         real(wp), intent(in) :: along                !! advance there of its y
         real(wp), intent(in) :: overlap              !! up to which height bodies overlap, mm
         real(wp), intent(in) :: y(:)                 !! points of the gap, increasing, mm
@@ -127,13 +126,13 @@ contains
         call find_overlap(y, h, overlap, first, last)
         place = [(first + (last - first)*i/(n_beside - 1), i=0, n_beside - 1)]
         tip = sqrt(overlap/inv2r(minloc(h, dim=1)))
-        there = offset + along*place
+        there = origin(2) + along*place
         pressed = 0.0_wp
         curved = 0.0_wp
         do s = 1, strips%n
-            call find_column(x, column)
-            call find_column(x + tip, ahead)
-            call find_column(x - tip, behind)
+            call find_column(origin(1), column)
+            call find_column(origin(1) + tip, ahead)
+            call find_column(origin(1) - tip, behind)
             pressed = pressed + factor*strips%p0(s)*column
             curved = curved + factor*strips%p0(s)*(0.5_wp*(ahead + behind) - column)/tip**2
         end do

@@ -115,7 +115,7 @@ contains
         real(wp), intent(in) :: near(:)                !! of `join_near`
         real(wp), intent(in) :: compliance             !! H of eq. (4), 1/MPa
 
-        real(wp) :: across(3), along, part, before
+        real(wp) :: across(3), origin(3), along, part, before
         integer :: j, lowest
 
         workspace%beside(i, :) = 0.0_wp
@@ -131,11 +131,11 @@ contains
                 across = in_track(frames(j), [0.0_wp, 1.0_wp, 0.0_wp])
                 along = dot_product(across, in_track(frames(i), [0.0_wp, 1.0_wp, 0.0_wp]))
                 before = gap%lower(lowest, 1)
+                origin = frames(i)%origin - frames(j)%origin
                 call add_pressed(workspace%contact(j)%strips, part*along*compliance, &
-                                 frames(i)%origin(1) - frames(j)%origin(1), &
-                                 dot_product(frames(i)%origin - frames(j)%origin, across), along, &
-                                 gap%overlap, gap%y(:n), gap%h(:n), gap%inv2r(:n), &
-                                 gap%lower(:n, 1), gap%tilt(:n, 1), gap%bend(:n, 1))
+                                 [origin(1), dot_product(origin, across)], along, gap%overlap, &
+                                 gap%y(:n), gap%h(:n), gap%inv2r(:n), gap%lower(:n, 1), &
+                                 gap%tilt(:n, 1), gap%bend(:n, 1))
                 workspace%beside(i, j) = (gap%lower(lowest, 1) - before) &
                                          /max(load_of(workspace%contact(j)%strips), tiny(part))
             end do
