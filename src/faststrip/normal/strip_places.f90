@@ -103,8 +103,8 @@ contains
 
     !> What strips of another contact press the bodies in by: the gap is that much higher, and bends
     !> along x less.
-    pure subroutine add_pressed(strips, factor, origin, along, overlap, y, h, inv2r, height, slope, &
-                                bend)
+    pure subroutine add_pressed(strips, factor, origin, along, overlap, y, h, inv2r, height, &
+                                slope, bend)
         type(contact_strips_t), intent(in) :: strips !! a normal solution
         real(wp), intent(in) :: factor               !! H of eq. (4) times what of it counts, 1/MPa
         real(wp), intent(in) :: origin(2)            !! of the gap in the strips' plane, mm
