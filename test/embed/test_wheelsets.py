@@ -561,7 +561,7 @@ class Interfaces(HostTest):
         package = self.import_package()
         for rail, load, y, curved in (("uic60", 1e5, 5.851, False), ("54e1", 1.1e5, 5.859, False),
                                       ("uic60", 6e4, 6.103, False), ("60e1", 1e5, 5.997, False),
-                                      ("uic60", 6e4, 6.103, True)):
+                                      ("uic60", 6e4, 6.103, True), ("60e1", 6e4, 6.211, False)):
             wheelset = package.Wheelset(rail=rail, inclination=0.05, curved=curved)
             state = {"yaw": 1e-3, "y_rate": 5.0, "speed": 2e4, "roll": 0.0, "wheels": "right"}
             places = y + 2e-3 * np.arange(-6.5, 7.0)
@@ -614,6 +614,19 @@ class Interfaces(HostTest):
                 self.assertLess(np.abs(np.diff(apart, axis=0)).max(), 150.0)
                 # Estimates go over as forces do.
                 self.assertLess(np.abs(np.diff(errors)).max(), 0.1 * tolerance)
+            # Auto knows them unasked; within a budget of time an ellipse has no strips beside it.
+            y = places[0] + 0.02 * (across.index(0) - 8)
+            state = {"y": y, "y_rate": 5.0, "speed": 2e4, "roll": 0.0, "wheels": "right"}
+            by_strips = strips.solve(load=load, **state)
+            state["z"] = float(by_strips.z[0])
+            both, unasked, soon = (
+                package.Wheelset(**pair, normal="auto", tolerance=tolerance, **more).solve(**state)
+                for more in ({}, {"estimate": False}, {"budget_us": 1e6}))
+            self.assertEqual(both.contacts[0].strips_across, 15)
+            self.assertGreater(both.contacts[0].est_err_fx,
+                               1.1 * by_strips.contacts[0].est_err_fx)
+            self.assertEqual(unasked.contacts[0].est_err_fx, both.contacts[0].est_err_fx)
+            self.assertEqual(soon.contacts[0].strips_across, 0)
 
     def test_strips_slide_and_turn_at_their_places(self):
         # Throat and tread together, all of it sliding: sums over the pressures of the exact gap.

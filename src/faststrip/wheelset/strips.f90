@@ -75,7 +75,7 @@ contains
 
     !> The gap of a contact of the last solution, by all points of the wheel's profile: it is in
     !> `workspace%wheel(side)%gap`, of a left wheel as in a mirror. A gap that was smoothed is what
-    !> was solved.
+    !> was solved; another one is that of the bodies as contacts beside this one do not press them.
     subroutine find_wheel_gap(model, workspace, result, side, i, status)
         type(wheelset_model_t), intent(in) :: model            !! made
         type(wheelset_workspace_t), intent(inout) :: workspace !! of the solution; gets the gap

@@ -65,7 +65,8 @@ module faststrip_wheelset_types
                                                 !! creepages are not used
         real(wp) :: join_distance = standard_join !! regions nearer than this are one contact, mm
         real(wp) :: turn_distance = standard_turn
-            !! contacts nearer than this turn towards the angle they will have as one, mm
+            !! contacts nearer than this turn towards the angle they will have as one, slide in
+            !! its plane and press each other's bodies in, mm
         real(wp) :: gap_height = standard_height  !! how high gaps are sampled, mm
         real(wp) :: damping = 0.0_wp
             !! share by which forces of a contact grow with its approach rate, s/mm; 0: none
@@ -158,11 +159,11 @@ module faststrip_wheelset_types
             !! of the force over the load, to the power 2/3, there; 0: not known, 1/mm
         type(region_t) :: region(most_contacts)       !! of the last solution
         real(wp) :: left_out(most_contacts) = 0.0_wp
-            !! how far their gaps are from what strips take them for, over the penetration
+            !! how far their gaps are from what strips take them for, over the overlap of the bodies
         real(wp) :: beside(most_contacts, most_contacts) = 0.0_wp
             !! what the load of the second contact presses in at the first, over that load, mm/N
-        real(wp) :: ellipse_part(most_contacts) = 0.0_wp
-            !! part of their forces that auto has from a Hertz ellipse beside strips
+        real(wp) :: strips_share(most_contacts) = 1.0_wp
+            !! share of strips in their forces; of auto the rest is that of a Hertz ellipse
         type(force_errors_t) :: ellipse_errors(most_contacts) !! of such an ellipse
         logical :: is_guided = .false.
             !! is a height being looked for by strips, for another method to take?

@@ -84,7 +84,7 @@ contains
         type(region_t) :: regions(most_regions)
         type(contact_case_t) :: case
         type(contact_frame_t) :: frames(most_regions)
-        real(wp) :: near(most_regions), load, left
+        real(wp) :: near(most_regions), load, left, before
         integer :: i, n, pass
         logical :: are_near, is_at_rest
 
@@ -140,9 +140,12 @@ contains
                 end associate
             end do
             left = left/max(maxval(wheel%contact(:n)%figures%normal%load), tiny(left))
-            is_at_rest = .not. are_near .or. pass > 1 .and. &
-                         left <= merge(1.0_wp, places_share, case%stays)*case%strip_tolerance
+            if (pass <= 2) before = 1.0_wp
+            ! Of what is left as much again is left by the next pass.
+            is_at_rest = .not. are_near .or. pass > 1 .and. left*min(left/before, 1.0_wp) &
+                         <= merge(1.0_wp, places_share, case%stays)*case%strip_tolerance
             if (is_at_rest) exit
+            before = left
             case%warm_start = .not. needs_guide(case)
         end do
         if (.not. is_at_rest) call add_limitation(wheel%status, st_under_resolved, &
@@ -234,16 +237,14 @@ contains
         do i = 1, wheel%n
             associate (contact => wheel%contact(i), figures => wheel%contact(i)%figures)
                 ! Auto knows them already but where strips have places.
-                if (is_auto .and. .not. workspace%contact(i)%strips%has_places) then
-                    call add_ellipse(workspace, i, figures%force_errors)
-                    cycle
-                end if
+                if (is_auto .and. .not. workspace%contact(i)%strips%has_places) cycle
                 if (is_auto) case%methods = workspace%contact(i)%methods
                 case%penetration = figures%normal%penetration
                 call take_motion(model, contact, case)
                 call estimate_contact(workspace%contact(i), case, figures, contact%status)
                 if (is_error(contact%status) .or. .not. figures%is_estimated) cycle
-                call add_ellipse(workspace, i, figures%force_errors)
+                call mix_errors(workspace%ellipse_errors(i), workspace%strips_share(i), &
+                                figures%force_errors)
                 associate (errors => figures%normal_errors, left => workspace%left_out(i))
                     errors%est_err_pmax = errors%est_err_pmax + left_of_pmax*left
                     errors%est_err_penetration = errors%est_err_penetration &
@@ -261,20 +262,6 @@ contains
             end associate
         end do
     end subroutine estimate_wheel
-
-    ! Estimates of the forces of both, where an ellipse has a part in them.
-    pure subroutine add_ellipse(workspace, i, errors)
-        type(wheel_workspace_t), intent(in) :: workspace
-        integer, intent(in) :: i                      ! which contact
-        type(force_errors_t), intent(inout) :: errors ! of the strips
-
-        associate (part => workspace%ellipse_part(i), its => workspace%ellipse_errors(i))
-            errors%fx = errors%fx + part*(its%fx - errors%fx)
-            errors%fy = errors%fy + part*(its%fy - errors%fy)
-            errors%mz = errors%mz + part*(its%mz - errors%mz)
-            errors%arm = errors%arm + part*(its%arm - errors%arm)
-        end associate
-    end subroutine add_ellipse
 
     !> Name pressures of a wheel above the limit that the user has set; its status becomes the worst
     !> of its contacts'.
@@ -324,19 +311,7 @@ contains
         if (case%stays) height = min(height, near_height*region%depth)
         rail = workspace%outline%state%rail(1)
         frame = frames(i)
-        call find_frame_gap(pair, workspace%outline, region, lowered, frame, height, &
-                            case%smoothing > 0.0_wp, workspace%gap, contact%status)
-        if (is_error(contact%status)) return
-        call press_gap(workspace, i, frames, near, normal_compliance(case%material))
-        associate (gap => workspace%gap, n => workspace%gap%n)
-            case%penetration = gap%overlap
-            if (case%smoothing > 0.0_wp) then
-                case%gap = gap_t(gap%y(:n), gap%h(:n), gap%inv2r(:n), gap%inclination(:n))
-            else
-                call set_contact_gap(workspace%contact(i), gap%y(:n), gap%h(:n), gap%inv2r(:n), &
-                                     contact%status, gap%inclination(:n), gap%slope(:n))
-            end if
-        end associate
+        call find_gap()
         if (is_error(contact%status)) return
         workspace%left_out(i) = workspace%gap%left_out
         contact%place = frame%origin
@@ -350,7 +325,7 @@ contains
         call place_on_wheel(pair, axes, frame%origin, contact)
         call take_motion(model, contact, case)
         call solve_and_sum()
-        workspace%ellipse_part(i) = 0.0_wp
+        workspace%strips_share(i) = 1.0_wp
         if (is_error(contact%status) .or. case%methods%normal /= normal_auto) return
         share = share_of_strips(case%wanted, workspace%contact(i))
         if (.not. share > 0.0_wp) return
@@ -361,14 +336,33 @@ contains
         if (is_error(contact%status)) then
             ! As where strips that the tolerance asks for are not found.
             contact = ellipse
+            call find_gap()
             call solve_and_sum()
         else
             call hand_to_strips(ellipse, share, contact)
-            workspace%ellipse_part(i) = 1.0_wp - share
+            workspace%strips_share(i) = share
             workspace%ellipse_errors(i) = ellipse%figures%force_errors
         end if
 
     contains
+
+        ! The gap as the contacts beside leave it, and how deep bodies overlap.
+        subroutine find_gap()
+            call find_frame_gap(pair, workspace%outline, region, lowered, frame, height, &
+                                case%smoothing > 0.0_wp, workspace%gap, contact%status)
+            if (is_error(contact%status)) return
+            call press_gap(workspace, i, frames, near, normal_compliance(case%material))
+            associate (gap => workspace%gap, n => workspace%gap%n)
+                case%penetration = gap%overlap
+                if (case%smoothing > 0.0_wp) then
+                    case%gap = gap_t(gap%y(:n), gap%h(:n), gap%inv2r(:n), gap%inclination(:n))
+                else
+                    call set_contact_gap(workspace%contact(i), gap%y(:n), gap%h(:n), &
+                                         gap%inv2r(:n), contact%status, gap%inclination(:n), &
+                                         gap%slope(:n))
+                end if
+            end associate
+        end subroutine find_gap
 
         subroutine solve_and_sum()
             if (workspace%gap%runs) then
@@ -381,13 +375,14 @@ contains
     end subroutine solve_one
 
     ! The share of strips where auto took a Hertz ellipse: forces of a motion go over from one to
-    ! the other while the ellipse's estimate goes from a part of the tolerance to all of it.
+    ! the other while the ellipse's estimate goes from a part of the tolerance to all of it. Within
+    ! a budget of time there is none for both.
     pure real(wp) function share_of_strips(wanted, workspace) result(share)
         type(wanted_t), intent(in) :: wanted
         type(workspace_t), intent(in) :: workspace ! solved
 
         share = 0.0_wp
-        if (workspace%solved_by /= normal_hertz .or. wanted%tolerance <= 0.0_wp) return
+        if (workspace%solved_by /= normal_hertz .or. wanted%budget_us > 0.0_wp) return
         share = workspace%steps%estimate/wanted%tolerance
         share = max(0.0_wp, min((share - blend_from)/(1.0_wp - blend_from), 1.0_wp))
     end function share_of_strips
@@ -398,28 +393,39 @@ contains
         real(wp), intent(in) :: share                   ! of the strips, 0 to 1
         type(wheel_contact_t), intent(inout) :: contact ! by strips; gets the sums of both
 
-        contact%force = mixed(ellipse%force, contact%force)
-        contact%force_wheelset = mixed(ellipse%force_wheelset, contact%force_wheelset)
-        contact%moment = mixed(ellipse%moment, contact%moment)
+        contact%force = mixed(ellipse%force, contact%force, share)
+        contact%force_wheelset = mixed(ellipse%force_wheelset, contact%force_wheelset, share)
+        contact%moment = mixed(ellipse%moment, contact%moment, share)
         associate (mine => contact%figures, its => ellipse%figures)
-            mine%normal%load = mixed(its%normal%load, mine%normal%load)
-            mine%moment = mixed(its%moment, mine%moment)
+            mine%normal%load = mixed(its%normal%load, mine%normal%load, share)
+            mine%moment = mixed(its%moment, mine%moment, share)
             associate (a => its%tangential, b => mine%tangential)
-                b%fx = mixed(a%fx, b%fx)
-                b%fy = mixed(a%fy, b%fy)
-                b%mz = mixed(a%mz, b%mz)
-                b%friction_power = mixed(a%friction_power, b%friction_power)
+                b%fx = mixed(a%fx, b%fx, share)
+                b%fy = mixed(a%fy, b%fy, share)
+                b%mz = mixed(a%mz, b%mz, share)
+                b%friction_power = mixed(a%friction_power, b%friction_power, share)
             end associate
+            call mix_errors(its%force_errors, share, mine%force_errors)
         end associate
-
-    contains
-
-        elemental real(wp) function mixed(of_ellipse, of_strips)
-            real(wp), intent(in) :: of_ellipse, of_strips
-
-            mixed = of_ellipse + share*(of_strips - of_ellipse)
-        end function mixed
     end subroutine hand_to_strips
+
+    ! Estimates of such forces.
+    pure subroutine mix_errors(ellipse, share, errors)
+        type(force_errors_t), intent(in) :: ellipse
+        real(wp), intent(in) :: share                 ! of the strips, 0 to 1
+        type(force_errors_t), intent(inout) :: errors ! of the strips
+
+        errors%fx = mixed(ellipse%fx, errors%fx, share)
+        errors%fy = mixed(ellipse%fy, errors%fy, share)
+        errors%mz = mixed(ellipse%mz, errors%mz, share)
+        errors%arm = mixed(ellipse%arm, errors%arm, share)
+    end subroutine mix_errors
+
+    elemental real(wp) function mixed(of_ellipse, of_strips, share)
+        real(wp), intent(in) :: of_ellipse, of_strips, share
+
+        mixed = of_ellipse + share*(of_strips - of_ellipse)
+    end function mixed
 
     ! A contact whose strips have places along x: first pressures, then the forces where they are.
     ! Auto tells as how many strips it is solved; elements of Kalker's methods have no such places.

@@ -1,17 +1,18 @@
-!> Contacts of one wheel that lie beside each other: when they are one, what they do before.
+!> Contacts of one wheel that lie beside each other: when they count as one, and what they do until
+!> then.
 !>
 !> Regions of overlap that are nearer than a distance are one contact, whose patches press each
-!> other's bodies in and slide in one plane. From half as far again on they come to do so by and by:
+!> other's bodies in and slide in one plane. From half as far again on they come to do so gradually:
 !> they turn towards the common angle, slide in the common plane, and what the strips of one press
-!> in at another raises its gap. So no force jumps where they become one.
+!> in at another raises its gap. So forces of strips do not jump where they become one.
 module faststrip_wheelset_wheel_neighbours
-    use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_kinds, only: wp
     use faststrip_geometry_contact_frame, only: contact_frame_t, place_frame, in_track
     use faststrip_geometry_overlap, only: region_t, join_regions, region_distance, most_regions
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t
     use faststrip_geometry_wheelset_state, only: rail_state_t
     use faststrip_normal_strip_places, only: add_pressed
-    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_strips, only: strips_load
     use faststrip_numerics_lu, only: lu_factor, lu_solve
     use faststrip_wheelset_approach, only: hertz_power
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_contact_t, wheel_result_t, &
@@ -59,23 +60,40 @@ contains
 
         type(region_t) :: whole
         real(wp) :: turn(most_regions)
-        integer :: i
+        integer :: i, first, last
 
-        turn = 0.0_wp
         near = 0.0_wp
         do i = 1, n - 1
             near(i) = (model%turn_distance - region_distance(regions(i), regions(i + 1))) &
                       /(model%turn_distance - model%join_distance)
             near(i) = max(near(i), 0.0_wp)
-            if (.not. near(i) > 0.0_wp) cycle
-            whole = join_regions(regions(i), regions(i + 1))
-            turn(i) = turn(i) + near(i)*(whole%angle - regions(i)%angle)
-            turn(i + 1) = turn(i + 1) + near(i)*(whole%angle - regions(i + 1)%angle)
+        end do
+        turn = 0.0_wp
+        do first = 1, n - 1
+            whole = regions(first)
+            do last = first + 1, n
+                if (.not. near(last - 1) > 0.0_wp) exit
+                whole = join_regions(whole, regions(last))
+                do i = first, last
+                    turn(i) = turn(i) + run_share(near(:n), first, last) &
+                                        *(whole%angle - regions(i)%angle)
+                end do
+            end do
         end do
         do i = 1, n
             regions(i)%angle = regions(i)%angle + turn(i)
         end do
     end subroutine turn_near
+
+    ! How much a run of contacts is one by itself: 1, where these have become one, and neither
+    ! neighbour is near. The shares of all runs with a contact, itself as well, are 1 together.
+    pure real(wp) function run_share(near, first, last) result(share)
+        real(wp), intent(in) :: near(:)
+        integer, intent(in) :: first, last
+
+        share = product(near(first:last - 1))*(1.0_wp - near(last))
+        if (first > 1) share = share*(1.0_wp - near(first - 1))
+    end function run_share
 
     !> The frames of all contacts of a wheel. On planes those that are near slide in that of the
     !> whole that they are going to be.
@@ -87,20 +105,25 @@ contains
         logical, intent(in) :: curved                   !! do strips slide in their own planes?
         type(contact_frame_t), intent(out) :: frames(:) !! mm, rad
 
+        type(region_t) :: joined
         type(contact_frame_t) :: whole
-        integer :: i, k
+        integer :: i, first, last
 
         do i = 1, size(regions)
             call place_frame(pair, rail, regions(i), frames(i))
         end do
         if (curved) return
-        do i = 1, size(regions) - 1
-            if (.not. near(i) > 0.0_wp) cycle
-            call place_frame(pair, rail, join_regions(regions(i), regions(i + 1)), whole)
-            do k = i, i + 1
-                frames(k)%lift = frames(k)%lift + near(i) &
-                                 *dot_product(whole%origin - frames(k)%origin, &
-                                              in_track(frames(k), [0.0_wp, 0.0_wp, 1.0_wp]))
+        do first = 1, size(regions) - 1
+            joined = regions(first)
+            do last = first + 1, size(regions)
+                if (.not. near(last - 1) > 0.0_wp) exit
+                joined = join_regions(joined, regions(last))
+                call place_frame(pair, rail, joined, whole)
+                do i = first, last
+                    frames(i)%lift = frames(i)%lift + run_share(near, first, last) &
+                                     *dot_product(whole%origin - frames(i)%origin, &
+                                                  in_track(frames(i), [0.0_wp, 0.0_wp, 1.0_wp]))
+                end do
             end do
         end do
     end subroutine place_frames
@@ -115,7 +138,7 @@ contains
         real(wp), intent(in) :: near(:)                !! of `join_near`
         real(wp), intent(in) :: compliance             !! H of eq. (4), 1/MPa
 
-        real(wp) :: across(3), origin(3), along, part, before
+        real(wp) :: across(3), origin(3), along, part, before, rise
         integer :: j, lowest
 
         workspace%beside(i, :) = 0.0_wp
@@ -137,27 +160,20 @@ contains
                                  gap%y(:n), gap%h(:n), gap%inv2r(:n), gap%lower(:n, 1), &
                                  gap%tilt(:n, 1), gap%bend(:n, 1))
                 workspace%beside(i, j) = (gap%lower(lowest, 1) - before) &
-                                         /max(load_of(workspace%contact(j)%strips), tiny(part))
+                                         /max(strips_load(workspace%contact(j)%strips), tiny(part))
             end do
             part = max((1.0_wp - least_left)*gap%overlap - gap%h(lowest), 0.0_wp)
             part = part/max(gap%lower(lowest, 1), part, tiny(part))
             workspace%beside(i, :) = part*workspace%beside(i, :)
-            gap%overlap = gap%overlap - part*gap%lower(lowest, 1)
-            gap%h(:n) = gap%h(:n) + part*(gap%lower(:n, 1) - gap%lower(lowest, 1))
+            rise = -gap%h(lowest)
+            gap%h(:n) = gap%h(:n) + part*gap%lower(:n, 1)
+            rise = rise + minval(gap%h(:n))
+            gap%h(:n) = gap%h(:n) - rise
+            gap%overlap = gap%overlap - rise
             gap%slope(:n) = gap%slope(:n) + part*gap%tilt(:n, 1)
             gap%inv2r(:n) = max(gap%inv2r(:n) + part*gap%bend(:n, 1), 0.5_wp*gap%inv2r(:n))
         end associate
     end subroutine press_gap
-
-    ! The load of strips, N.
-    pure real(wp) function load_of(strips) result(load)
-        type(contact_strips_t), intent(in) :: strips
-
-        associate (n => strips%n)
-            load = 0.5_wp*pi*sum(strips%p0(:n)*strips%half_length(:n) &
-                                 *(strips%y_right(:n) - strips%y_left(:n)))
-        end associate
-    end function load_of
 
     !> What profiles, as exact as the model says, leave open of each normal force.
     !>
@@ -201,9 +217,9 @@ contains
                 moved = 0.0_wp
                 if (load_is_given .and. total > 0.0_wp) moved = by_height(i, side)/total
                 ! Of all contacts, but those of this wheel by what they do themselves.
-                left = moved*all
+                left = abs(moved)*all
                 do j = 1, wheels(side)%n
-                    left = left - moved*abs(of_sum(j, side)) &
+                    left = left - abs(moved*of_sum(j, side)) &
                            + left_of(by_gap(i, j, side), moved*of_sum(j, side))
                 end do
                 associate (contact => wheels(side)%contact(i))
