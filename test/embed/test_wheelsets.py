@@ -559,9 +559,10 @@ class Interfaces(HostTest):
         # became one contact: bodies were pressed in by the others' loads, and slid in one plane,
         # from there on only.
         package = self.import_package()
-        for rail, load, y, curved in (("uic60", 1e5, 5.851, False), ("54e1", 1.1e5, 5.859, False),
-                                      ("uic60", 6e4, 6.103, False), ("60e1", 1e5, 5.997, False),
-                                      ("uic60", 6e4, 6.103, True), ("60e1", 6e4, 6.211, False)):
+        for rail, load, y, curved, bound in (
+                ("uic60", 1e5, 5.851, False, 5e-4), ("54e1", 1.1e5, 5.859, False, 1e-3),
+                ("uic60", 6e4, 6.103, False, 3e-3), ("60e1", 1e5, 5.997, False, 1e-3),
+                ("uic60", 6e4, 6.103, True, 5e-3), ("60e1", 6e4, 6.211, False, 3e-3)):
             wheelset = package.Wheelset(rail=rail, inclination=0.05, curved=curved)
             state = {"yaw": 1e-3, "y_rate": 5.0, "speed": 2e4, "roll": 0.0, "wheels": "right"}
             places = y + 2e-3 * np.arange(-6.5, 7.0)
@@ -573,7 +574,7 @@ class Interfaces(HostTest):
                 contacts.append(len(found.contacts))
             with self.subTest(rail=rail, load=load, y=y, curved=curved):
                 self.assertGreater(len(set(contacts)), 1)
-                self.assertLess(np.abs(np.diff(forces, 2, axis=0)).max(), 5e-3 * load)
+                self.assertLess(np.abs(np.diff(forces, 2, axis=0)).max(), bound * load)
 
     def test_a_contact_that_others_press_away_bears_nothing(self):
         # It overlaps by as much as one that bears 3 kN alone.
@@ -581,13 +582,13 @@ class Interfaces(HostTest):
         state = {"yaw": 1e-3, "y_rate": 5.0, "speed": 2e4, "roll": 0.0, "wheels": "right"}
         found = package.Wheelset(rail="54e1", inclination=0.05).solve(y=5.864, load=1.1e5, **state)
         self.assertEqual([contact.word for contact in found.contacts], ["conformal", "ok"])
-        self.assertLess(found.contacts[1].load, 10.0)
-        self.assertLess(found.contacts[1].penetration, 1e-3)
+        self.assertLess(found.contacts[1].load, 5.0)
+        self.assertLess(found.contacts[1].penetration, 2e-4)
         cold = package.Wheelset(rail="54e1", inclination=0.05)
         z = float(found.z[0])
         cold.solve(y=5.86, z=z, **state)
         warm = cold.solve(y=5.864, z=z, warm_start=True, **state)
-        self.assertLess(np.abs(np.subtract(warm.force[0], found.force[0])).max(), 0.1)
+        self.assertLess(np.abs(np.subtract(warm.force[0], found.force[0])).max(), 4e-3)
 
     def test_auto_goes_from_ellipses_to_strips_without_a_jump(self):
         # An ellipse and strips differ by up to 2.3 kN where its estimate meets the tolerance.
@@ -610,7 +611,7 @@ class Interfaces(HostTest):
                 # By ellipses alone, by both, by strips alone.
                 self.assertIn(0, across)
                 self.assertGreater(max(across), 14)
-                self.assertLess(np.abs(apart).min(axis=0).max(), 2.0)
+                self.assertLess(np.abs(apart).min(axis=0).max(), 1e-5)
                 self.assertLess(np.abs(np.diff(apart, axis=0)).max(), 150.0)
                 # Estimates go over as forces do.
                 self.assertLess(np.abs(np.diff(errors)).max(), 0.1 * tolerance)

@@ -289,6 +289,12 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(run_mutants.stages_of(first, True)[0],
                          ("installed", ["test/embed/test_hosts.py"]))
 
+    def test_a_verdict_is_that_of_the_tests_to_begin_with(self):
+        entry = {"id": "", "file": "a.f90", "why": "", "text": "", "replacement": ""}
+        keys = {run_mutants.Mutant("normal", {**entry, **first}).key("tree")
+                for first in ({}, {"first": "normal/test_hertz"}, {"first": "normal/test_strip"})}
+        self.assertEqual(len(keys), 3)
+
     def test_a_run_goes_on_where_it_was(self):
         self.judge(1, text=SURVIVOR)
         results = self.folder / "build/mutants/results.jsonl"

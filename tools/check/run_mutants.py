@@ -148,7 +148,8 @@ class Mutant:
         return source[:at] + self.replacement + source[at + len(self.text):]
 
     def key(self, tree):
-        words = [tree, self.room, self.file, self.text, self.replacement, str(self.index)]
+        words = [tree, self.room, self.file, self.text, self.replacement, str(self.index),
+                 str(self.first)]
         return hashlib.sha256("\0".join(words).encode()).hexdigest()
 
 

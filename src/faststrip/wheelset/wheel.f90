@@ -91,7 +91,6 @@ contains
         call find_regions(pair, workspace%outline, lowered, regions, n)
         call join_near(model, regions, n, near)
         wheel%n = n
-        call clear_status(wheel%status)
         case = model%case
         case%by_load = .false.
         case%estimate = .false.
@@ -141,7 +140,7 @@ contains
             end do
             left = left/max(maxval(wheel%contact(:n)%figures%normal%load), tiny(left))
             if (pass <= 2) before = 1.0_wp
-            ! Of what is left as much again is left by the next pass.
+            ! The next pass will leave the same part of it as this one did of what was left before.
             is_at_rest = .not. are_near .or. pass > 1 .and. left*min(left/before, 1.0_wp) &
                          <= merge(1.0_wp, places_share, case%stays)*case%strip_tolerance
             if (is_at_rest) exit
@@ -235,10 +234,10 @@ contains
             case%force_limit = huge(1.0_wp)
         end if
         do i = 1, wheel%n
+            ! Auto knows them already but where strips have places.
+            if (is_auto .and. .not. workspace%contact(i)%strips%has_places) cycle
+            if (is_auto) case%methods = workspace%contact(i)%methods
             associate (contact => wheel%contact(i), figures => wheel%contact(i)%figures)
-                ! Auto knows them already but where strips have places.
-                if (is_auto .and. .not. workspace%contact(i)%strips%has_places) cycle
-                if (is_auto) case%methods = workspace%contact(i)%methods
                 case%penetration = figures%normal%penetration
                 call take_motion(model, contact, case)
                 call estimate_contact(workspace%contact(i), case, figures, contact%status)
