@@ -22,7 +22,7 @@ module faststrip_normal_strip_converge
     use faststrip_normal_strip_coupled_equations, only: end_t, list_ends, shift_ends, in_order, &
                                                         coupled_residual, coupled_factors
     use faststrip_normal_strip_ends, only: end_width
-    use faststrip_normal_strip_patches, only: patches_t, max_patches
+    use faststrip_normal_strip_patches, only: patches_t, max_patches, pass_strips_t
     use faststrip_normal_strip_state, only: strip_workspace_t, newton_workspace_t, most_past, &
                                             position_edges, look_for_edges, renew_edges
     use faststrip_normal_types, only: demand_t, cost_t
@@ -56,6 +56,9 @@ module faststrip_normal_strip_converge
     real(wp), parameter :: second_order = 0.05_wp
     ! Tuned [1]: the same of several patches, whose distances change. Origin: measured: .7.
     real(wp), parameter :: second_order_apart = 1.0_wp
+    ! Tuned [1]: length of a strip over its width from which on a change counts as one of the width:
+    ! near tips coefficients change over that. Origin: measured: tips of hostile gaps close to 1e-4.
+    real(wp), parameter :: slender = 20.0_wp
     ! Tuned [1]: the steps' tolerance over that asked for, or over the square of what has changed:
     ! coefficients are evaluated anew then. Origin: chosen: steps cost little.
     real(wp), parameter :: finest = 0.3_wp
@@ -94,6 +97,7 @@ module faststrip_normal_strip_converge
         logical :: fresh = .false., was_fresh = .false. ! are factors those of this step, the last
                                                         ! that was taken?
         real(wp) :: size_now = 0.0_wp, size_before = beyond_all ! largest component of the steps
+        real(wp) :: second = 1.0_wp    ! error of a solution over the square of what has changed
         integer :: past = 0            ! steps so far by the same factors and coefficients
         real(wp) :: scale = 1.0_wp     ! part of a step that is taken
         real(wp) :: p_scale = 1.0_wp   ! unit of the pressures' steps, MPa
@@ -125,6 +129,7 @@ contains
         course%follows = workspace%graded .and. .not. held
         course%m = 2*workspace%strips%n + 1 + n_ends
         course%again = .not. is_linear_of(workspace%linear, patches)
+        course%second = second_of(workspace%strips, patches%n)
         do trial = 1, max_steps
             outcome = not_converged
             call evaluate(workspace, trial, patches, course, cost, possible)
@@ -180,6 +185,7 @@ contains
         end if
         call linearise_coefficients(workspace%linear, workspace%strips, patches)
         call count_evaluation(cost, workspace%strips%n)
+        course%second = second_of(workspace%strips, patches%n)
         course%size_before = beyond_all
         course%again = .false.
     end subroutine evaluate
@@ -267,7 +273,7 @@ contains
         type(course_t), intent(inout) :: course
         integer, intent(out) :: outcome
 
-        real(wp) :: left, change, second, error
+        real(wp) :: left, change, error
 
         outcome = not_converged
         if (course%scale < 1.0_wp) then
@@ -280,8 +286,7 @@ contains
         if (.not. course%size_before < beyond_all) left = course%size_now*slow/(1.0_wp - slow)
         course%size_before = course%size_now
         change = linear_change(workspace%linear, workspace%strips)
-        second = merge(second_order, second_order_apart, patches%n == 1)
-        error = second*change**2
+        error = course%second*change**2
         if (left <= finest*tolerance .and. error <= tolerance) then
             if (course%follows) call look_for_edges(workspace, patches, course%moved)
             ! Where a jump of curvature enters the patch edges move on after a look.
@@ -290,7 +295,7 @@ contains
             return
         end if
         course%again = error > tolerance &
-                       .and. left <= max(finest*change**2, near*sqrt(tolerance/second))
+                       .and. left <= max(finest*change**2, near*sqrt(tolerance/course%second))
         if (.not. course%follows .or. course%looked .or. course%again) return
         ! Near enough for edges that stay: do they belong elsewhere?
         if (left > 0.25_wp*edge_tolerance) return
@@ -298,6 +303,20 @@ contains
         call look_for_edges(workspace, patches, course%moved)
         course%again = course%moved > edge_tolerance
     end subroutine judge
+
+    !> Error of a solution by linearised coefficients over the square of what has changed.
+    pure real(wp) function second_of(strips, n_patches)
+        type(pass_strips_t), intent(in) :: strips
+        integer, intent(in) :: n_patches
+
+        real(wp) :: slimmest ! length over width
+
+        associate (n => strips%n)
+            slimmest = maxval(strips%half_length(:n)/(strips%y_right(:n) - strips%y_left(:n)))
+        end associate
+        second_of = max(merge(second_order, second_order_apart, n_patches == 1), &
+                        second_order*(slimmest/slender)**2)
+    end function second_of
 
     !> The load to the last digit.
     pure subroutine meet_load(workspace, demand)
