@@ -7,8 +7,8 @@
 !>
 !> X = x/xd, cl and cr the distances of the strip's edges from y over xd. Away from the strip the
 !> rule of Gauss and Chebyshev (second kind) serves. Near it u = cos(theta) is parted at the pole,
-!> and the distance from it is the fourth power of the variable of Gauss and Legendre, which the
-!> logarithm does not disturb. Six digits at the least.
+!> and the distance from it is the fifth power of the variable of Gauss and Legendre, which the
+!> logarithm does not disturb. Six digits, of strips up to 1e4 times as long as wide.
 module faststrip_lab_fuzz_influence
     use faststrip_base_kinds, only: wp, pi
     use faststrip_normal_strips, only: contact_strips_t
@@ -17,7 +17,7 @@ module faststrip_lab_fuzz_influence
 
     public :: displacement
 
-    integer, parameter :: n_far = 10, n_near = 24
+    integer, parameter :: n_far = 10, n_near = 48
     real(wp), parameter :: far = 1.5_wp ! of the half-length: from here on Chebyshev's nodes serve
 
     real(wp) :: node(n_near) = 0.0_wp, weight(n_near) = 0.0_wp ! of Gauss and Legendre on [0, 1]
@@ -72,7 +72,7 @@ contains
 
             real(wp) :: tau(n_near), u(n_near), distance(n_near), outside
 
-            tau = angle*node**4
+            tau = angle*node**5
             outside = max(pole - 1.0_wp, 0.0_wp)
             u = sin(angle - tau)
             distance = outside + 2.0_wp*sin(angle - 0.5_wp*tau)*sin(0.5_wp*tau)
@@ -80,7 +80,7 @@ contains
                 u = sin(tau)
                 distance = outside + 2.0_wp*sin(0.5_wp*tau)**2
             end if
-            side = sum(weight*4.0_wp*angle*node**3*u**2*kernel(distance, c_left, c_right))
+            side = sum(weight*5.0_wp*angle*node**4*u**2*kernel(distance, c_left, c_right))
         end function side
     end function influence
 
