@@ -286,12 +286,13 @@ contains
         type(strip_workspace_t), intent(inout) :: workspace !! with strips in these patches
         type(patches_t), intent(in) :: patches
 
-        real(wp) :: before, eta, ellipse
+        real(wp) :: before, eta, ellipse, inv2r
         integer :: p, k, first, last
 
         associate (strips => workspace%strips, edge => workspace%edge, middle => workspace%middle, &
                    new_edge => workspace%new_edge, pressure => workspace%newton%other(:, 1), &
                    length => workspace%newton%other(:, 2))
+            inv2r = strips%inv2r(1)
             last = 0
             do p = 1, patches%n
                 before = -1.0_wp
@@ -299,7 +300,7 @@ contains
                     middle(k) = 0.5_wp*(before + edge(k))
                     ellipse = sqrt(1.0_wp - middle(k)**2)
                     pressure(k) = strips%p0(k)/ellipse
-                    length(k) = strips%half_length(k)*sqrt(strips%inv2r(k))/ellipse
+                    length(k) = strips%half_length(k)*sqrt(strips%inv2r(k)/inv2r)/ellipse
                     before = edge(k)
                 end do
                 last = last + patches%at(p)%n_strips
@@ -316,7 +317,7 @@ contains
                     ellipse = sqrt(1.0_wp - eta**2)
                     strips%p0(k) = ellipse*extrapolated(middle, pressure, first, last, eta)
                     strips%half_length(k) = ellipse*extrapolated(middle, length, first, last, eta) &
-                                            /sqrt(strips%inv2r(k))
+                                            /sqrt(strips%inv2r(k)/inv2r)
                     before = edge(k)
                 end do
             end do
