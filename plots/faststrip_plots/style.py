@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import io
 import os
 import pathlib
 import sys
@@ -104,11 +103,15 @@ def mark_width(axes, left: float, right: float) -> None:
 
 def write_png(figure, path: str, description: str) -> None:
     """Write a PNG of 256 colours, a third of the bytes of all: none is off by more than can be
-    seen."""
-    with io.BytesIO() as stream:
-        figure.savefig(stream, dpi=DPI, format="png", pil_kwargs={"compress_level": 0})
-        pixels = PIL.Image.open(stream).convert("RGB").quantize(
-            COLOURS, method=PIL.Image.Quantize.MAXCOVERAGE, dither=PIL.Image.Dither.NONE)
+    seen. It is drawn once: savefig would draw it twice, the first time for the layout alone."""
+    dpi = figure.dpi
+    figure.set_dpi(DPI)
+    figure.canvas.draw()
+    pixels = PIL.Image.frombuffer("RGBA", figure.canvas.get_width_height(),
+                                  figure.canvas.buffer_rgba(), "raw", "RGBA", 0, 1)
+    pixels = pixels.convert("RGB").quantize(
+        COLOURS, method=PIL.Image.Quantize.MAXCOVERAGE, dither=PIL.Image.Dither.NONE)
+    figure.set_dpi(dpi)
     about = PIL.PngImagePlugin.PngInfo()
     about.add_text("Description", description)
     pixels.save(path, format="png", pnginfo=about, optimize=True, dpi=(DPI, DPI))
@@ -136,7 +139,7 @@ def save(figure, path: str, stamps, note: str = "", vector: bool = False) -> Non
         else:
             write_png(figure, path, f"{text};")
         if vector or os.environ.get("FASTSTRIP_SVG"):
-            figure.set_layout_engine("none")  # what was placed for the PNG stays where it is
+            figure.set_layout_engine()  # none: what was placed for the PNG stays where it is
             # neither date nor random names: the same data give the same file
             with matplotlib.rc_context({"svg.hashsalt": "faststrip"}):
                 figure.savefig(os.path.splitext(path)[0] + ".svg", format="svg",
