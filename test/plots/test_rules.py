@@ -5,6 +5,7 @@ import itertools
 import pathlib
 import re
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -46,19 +47,15 @@ def seen(colour, kind):
 
 
 def figures(command, *arguments, files=FILES):
-    """The figures a command saves, by the names of their files."""
-    found, kept = {}, picture.save
+    """The figures a command saves, by the names of their files; that they can be drawn is tested
+    in test_pictures.py."""
+    found = {}
 
-    def save(figure, path, *rest, **more):
+    def save(figure, path, *_):
         found[pathlib.Path(path).name] = figure
-        kept(figure, path, *rest, **more)
 
-    picture.save = save
-    try:
-        with Folder(files) as folder:
-            status, _, err = folder.run(command, *arguments)
-    finally:
-        picture.save = kept
+    with mock.patch.object(picture, "save", save), Folder(files) as folder:
+        status, _, err = folder.run(command, *arguments)
     assert status == 0, err
     return found
 
