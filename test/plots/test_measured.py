@@ -3,6 +3,7 @@
 import math
 import pathlib
 import unittest
+from unittest import mock
 
 import matplotlib.image
 import numpy as np
@@ -161,11 +162,18 @@ class Pictures(unittest.TestCase):
                 self.drawn(command)
 
     def test_other_names(self):
-        self.drawn("integrals", None, "--folder", "p",
-                   pictures=("p/integrals.png", "p/integral_errors.png"))
-        for command in ("degrees", "bench_integral", "convergence", "bench_normal"):
-            with self.subTest(command):
-                self.drawn(command, None, "-o", "p/q.png", pictures=["p/q.png"])
+        # These are drawn of the same rows under their own names.
+        for command, arguments, names in (
+                ("integrals", ("--folder", "p"), ("p/integrals.png", "p/integral_errors.png")),
+                *((command, ("-o", "p/q.png"), ("p/q.png",))
+                  for command in ("degrees", "bench_integral", "convergence", "bench_normal"))):
+            with self.subTest(command), Folder({COMMANDS[command][0]: text(COMMANDS[command][0])}) \
+                    as folder, mock.patch.object(style, "write_png",
+                                                 lambda _, path, __: pathlib.Path(path).touch()):
+                self.assertEqual(folder.run(command, *arguments),
+                                 (0, "".join(f"{name}\n" for name in names), ""))
+                self.assertEqual({path.relative_to(folder.path).as_posix()
+                                  for path in folder.path.rglob("*.png")}, set(names))
         contact = str(ROOT / "reference/contact/s1002_uic60_B.csv")
         self.drawn("bench_reference", None, "--contact", contact, "-o", "p/q.png",
                    pictures=["p/q.png"])
