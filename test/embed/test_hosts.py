@@ -106,7 +106,7 @@ class Hosts(HostTest):
 
     @unittest.skipUnless(sanitizer(), "needs the address sanitizer")
     def test_no_leak_under_the_address_sanitizer(self):
-        self.compile_host("host.c", "asan", "-fsanitize=address,undefined")
+        self.compile_host("host.c", "asan", "-fsanitize=address,undefined -DKEPT=8")
         found = self.findings("./asan memory errors freed sizes")
         self.assertEqual(found["copy"], [0])
         self.assertEqual(found["wrong"], [0, 0, 0])
