@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import style
+from .looks import looks
 from .tables import InputError, Table, read_table
 
 SHIFT_TOLERANCE = 1e-6  # mm; two shifts closer than this are the same case
@@ -112,8 +112,8 @@ class Sweep:
             if method.normal == "strip":
                 low, high = (method.values[name] for name in ("ymin_mm", "ymax_mm"))
                 return [0.5 * (one + other) for one, other, left, right in zip(
-                    method.yw, method.yw[1:], style.jumps(method.yw, low),
-                    style.jumps(method.yw, high))
+                    method.yw, method.yw[1:], looks.jumps(method.yw, low),
+                    looks.jumps(method.yw, high))
                     if left and right]
         return []
 

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
-import pathlib
-import sys
 
 import matplotlib
 import PIL.Image
@@ -14,24 +11,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter, StrMethodFormatter
 
+from .looks import looks
 from .tables import InputError
 
-
-def _package_style():
-    """The style of the Python package; without the package, which would look for its library."""
-    path = pathlib.Path(__file__).resolve().parents[2] / "python" / "faststrip" / "_style.py"
-    spec = importlib.util.spec_from_file_location("faststrip_style", path)
-    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-_style = _package_style()
-FONT, SMALL, DPI, MAP, GREY = _style.FONT, _style.SMALL, _style.DPI, _style.MAP, _style.GREY
-PALE, NORMAL, METHOD, CONTACT = _style.PALE, _style.NORMAL, _style.METHOD, _style.CONTACT
-Look, normal_look, method_look = _style.Look, _style.normal_look, _style.method_look
-number, jumps, broken, PATCH = _style.number, _style.jumps, _style.broken, _style.PATCH
-
+FONT, SMALL, DPI, MAP, GREY = looks.FONT, looks.SMALL, looks.DPI, looks.MAP, looks.GREY
+PALE, NORMAL, METHOD, CONTACT = looks.PALE, looks.NORMAL, looks.METHOD, looks.CONTACT
+Look, normal_look, method_look = looks.Look, looks.normal_look, looks.method_look
+number, jumps, broken, PATCH = looks.number, looks.jumps, looks.broken, looks.PATCH
 
 COLOURS = 256  # of a PNG: what a byte tells
 
@@ -44,7 +30,7 @@ def luminance(colour: str) -> float:
 
 def new_figure(width: float, height: float):
     """An empty figure in the common style, size in inches."""
-    matplotlib.rcParams.update(_style.PARAMETERS)
+    matplotlib.rcParams.update(looks.PARAMETERS)
     figure = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     figure.get_layout_engine().set(w_pad=0.08, h_pad=0.06)

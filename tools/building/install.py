@@ -38,7 +38,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What the program loads to write NetCDF.
 NETCDF = "faststrip_netcdf.so"
 # What plots/plot.py, which draws for --plot, needs of its package.
-DRAWS = ("__init__", "command", "panels", "picture", "results", "style", "tables")
+DRAWS = ("__init__", "command", "looks", "panels", "picture", "results", "style", "tables")
 PKG_CONFIG = """\
 prefix={prefix}
 libdir=${{prefix}}/lib
