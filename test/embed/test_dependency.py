@@ -29,18 +29,20 @@ name = "host"
 source-dir = "app"
 main = "main.f90"
 """
-# Stands before the linker: notes what it is told and refuses what the core must not need.
+# Stands before the linker: notes what it is told and refuses all that the core must not need.
 LINKER = """\
 #!/bin/sh
 printf '%s\\n' "$*" >>"{folder}/linked"
+refused=
 for word in "$@"; do
     case $word in
     *gsl* | *fftw*)
         echo "ld: refused: $word" >&2
-        exit 1
+        refused=yes
         ;;
     esac
 done
+[ -z "$refused" ] || exit 1
 exec {linker} "$@"
 """
 # Stands for gfortran and keeps what sees no change.
@@ -120,11 +122,10 @@ class Dependency(unittest.TestCase):
         self.assertAlmostEqual(force, -12.23e3, delta=200.0)
 
     def test_the_linker_would_have_refused_them(self):
+        code, said = self.build("faststrip", ".", "end\n", 'link = ["gsl", "fftw3"]')
+        self.assertNotEqual(code, 0)
         for library in ("gsl", "fftw3"):
-            with self.subTest(library):
-                code, said = self.build("faststrip", ".", "end\n", f'link = ["{library}"]')
-                self.assertNotEqual(code, 0)
-                self.assertIn(f"ld: refused: -l{library}", said)
+            self.assertIn(f"ld: refused: -l{library}", said)
 
     def test_packages_name_the_libraries_they_need(self):
         """And none that they do not need."""
