@@ -419,17 +419,19 @@ def fpm_build(name, package, flags, twin=""):
     fpm(name, package, "build", flags, trouble="the build failed", twin=twin)
 
 
-def built(package, flags, target):
-    """Path of a program that fpm has built; fpm names it from the package's folder."""
-    said = subprocess.run([FPM, "run", "-C", package, "--target", target, "--compiler", "gfortran",
+def built(package, flags, *targets):
+    """Paths of programs that fpm has built; fpm names them from the package's folder."""
+    said = subprocess.run([FPM, "run", "-C", package, "--all", "--compiler", "gfortran",
                            "--flag", flags, "--runner", "echo"], stdout=subprocess.PIPE,
                           stderr=subprocess.DEVNULL, encoding="utf-8", env=compiler(),
                           check=False).stdout
-    for line in said.splitlines():
-        path = pathlib.Path(package, line.strip())
-        if path.name == target and path.is_file():
-            return path.as_posix()
-    raise Trouble("the build failed", f"fpm names no program {target}\n")
+    found = {path.name: path.as_posix() for path in (pathlib.Path(package, line.strip())
+                                                     for line in said.splitlines())
+             if path.is_file()}
+    for target in targets:
+        if target not in found:
+            raise Trouble("the build failed", f"fpm names no program {target}\n")
+    return [found[target] for target in targets]
 
 
 def build():
@@ -437,8 +439,8 @@ def build():
     write_revision()
     fpm_build("build", "app", PROGRAM_FLAGS)
     pathlib.Path("bin").mkdir(exist_ok=True)
-    for name in PROGRAMS:
-        made, target = built("app", PROGRAM_FLAGS, name), f"bin/{name}"
+    for name, made in zip(PROGRAMS, built("app", PROGRAM_FLAGS, *PROGRAMS), strict=True):
+        target = f"bin/{name}"
         if not os.path.exists(target) or not filecmp.cmp(made, target, shallow=False):
             # One that is running at the moment can be replaced, not written over.
             shutil.copy2(made, f"{target}.new")
@@ -507,7 +509,7 @@ def fortran_tests(text, flags=TEST_FLAGS, twin="", left_out=()):
     if code != 0:
         return code, said
     fpm_build("build-tests", "test", flags, twin)
-    return shared(built("test", flags, "run-tests"), text, ",".join(left_out))
+    return shared(*built("test", flags, "run-tests"), text, ",".join(left_out))
 
 
 def shared(runner, *words):
@@ -754,7 +756,7 @@ def extremes():
     out = folder("extremes")
     pipeline(EXTREMES, out=out)
     fpm_build("build-scalar", "app", SCALAR_FLAGS)
-    pipeline(EXTREMES_END, out=out, scalar=built("app", SCALAR_FLAGS, "faststrip-lab"))
+    pipeline(EXTREMES_END, out=out, scalar=built("app", SCALAR_FLAGS, "faststrip-lab")[0])
 
 
 def forces():
