@@ -595,7 +595,7 @@ def python_tests(text):
         python_packages("test", "what the tests of the Python package and of NetCDF need")
         python_packages("vehicle", "scipy")
     # Towards the end what is short, so that all processes end together.
-    return pytest(text, ["test/embed", "test/cli", "test/plots", "test/tools"])
+    return pytest(text, ["test/embed", "test/cli", "test/tools", "test/plots"])
 
 
 def quick_python_tests(text):
