@@ -507,6 +507,49 @@ class Interfaces(HostTest):
                 self.assertAlmostEqual(float(row["est_err_load"]),
                                        2.0 * accuracy * one.est_err_load, delta=1e-9)
 
+    def test_what_is_open_of_a_load_is_open_of_its_forces(self):
+        self.write("y.csv", "case,side,y_mm,roll_rad,yaw_rad,speed_mm_s,pitch_rate_rad_s,Fz_N\n"
+                   "a,right,6.2,0,0.004,20000,,60000\n")
+
+        def rows(accuracy):
+            self.write("two.nml", "&wheel\n  profile = 's1002'\n/\n&rail\n  profile = '60e1'\n"
+                       "  inclination = 0.05\n/\n&material\n  mu = 0.3\n/\n&numerics\n"
+                       f"  profile_accuracy_um = {accuracy}\n/\n")
+            self.shell(f"'{self.installed.prefix}/bin/faststrip' wheelset two.nml --states y.csv"
+                       " -o two.csv")
+            text = (self.folder / "two.csv").read_text(encoding="utf-8")
+            found = list(csv.DictReader(line for line in text.splitlines() if line[0] != "#"))
+            self.assertEqual(len(found), 2)
+            return [{name: float(row[name]) for name in (
+                "N_N", "area_mm2", "Fx_N", "Fs_N", "Mz_Nmm", "est_err_Fx", "est_err_Fy",
+                "est_err_Mz", "est_err_load")} for row in found]
+
+        of_method, of_both = rows(0.0), rows(0.5)
+        for method, both in zip(of_method, of_both):
+            self.assertEqual(method["est_err_load"], 0.0)
+            bound, share = 0.3 * both["N_N"], both["est_err_load"]
+            self.assertGreater(share, 0.01)
+            for force in ("Fx", "Fy"):
+                self.assertAlmostEqual(both[f"est_err_{force}"] - method[f"est_err_{force}"],
+                                       share * np.hypot(both["Fx_N"], both["Fs_N"]) / bound,
+                                       delta=1e-12)
+            radius = (both["area_mm2"] / np.pi)**0.5
+            self.assertAlmostEqual(both["est_err_Mz"] - method["est_err_Mz"],
+                                   share * (4 / 3 * abs(both["Mz_Nmm"]) / radius
+                                            + 0.2 * np.hypot(both["Fx_N"], both["Fs_N"])) / bound,
+                                   delta=1e-12)
+        # A given height: all contacts are as much as that too near, and forces move by no more.
+        wheelset = self.import_package().Wheelset(inclination=0.05)
+        state = {"y": 6.2, "yaw": 0.004, "speed": 2e4, "wheels": "right"}
+        z = wheelset.solve(load=6e4, **state).z[0]
+        here, nearer = (wheelset.solve(z=at, **state).contacts for at in (z, z + 5e-4))
+        self.assertEqual((len(here), len(nearer)), (2, 2))
+        for one, other in zip(here, nearer):
+            moved = [abs(after - before) / np.hypot(one.fx, one.fy)
+                     for before, after in ((one.fx, other.fx), (one.fy, other.fy))]
+            self.assertLess(max(moved), 1.1 * one.est_err_load)
+            self.assertGreater(max(moved), 0.5 * one.est_err_load)
+
     def test_a_yawed_flange_is_near_the_exact_gap(self):
         package = self.import_package()
         text = (ROOT / "reference" / "wheelset" / "yawed_flanges.csv").read_text(encoding="utf-8")
@@ -731,11 +774,15 @@ class Interfaces(HostTest):
             (one,) = found.contacts
             self.assertGreater(one.strips_across, 6)
             alike = package.Wheelset(strips_per_patch=one.strips_across, curved=curved, **methods)
-            (other,) = alike.solve(z=found.z[0], **state).contacts
+            (there, other) = (each.solve(z=found.z[0], **state).contacts[0]
+                              for each in (auto, alike))
             for name in ("load", "fx", "fy", "mz", "force", "moment", "est_err_pmax", "est_err_mz"):
-                mine, wanted = (np.array(getattr(each, name)) for each in (one, other))
-                # Edges of strips may lie apart by their tolerance: so do estimates.
-                near = 5e-5 if name.startswith("est_") else 1e-5
+                # Estimates know whether a load was given. Edges of strips may lie apart by their
+                # tolerance: so do they.
+                is_estimate = name.startswith("est_")
+                mine, wanted = (np.array(getattr(each, name))
+                                for each in (there if is_estimate else one, other))
+                near = 5e-5 if is_estimate else 1e-5
                 np.testing.assert_allclose(mine, wanted, rtol=0.0, atol=near * abs(wanted).max(),
                                            err_msg=f"{name} {y} {yaw}")
             # A larger error than was wanted is named, whoever found it.
