@@ -110,7 +110,7 @@ class Fuzz(LabTest):
     def test_rounding_turns_no_decision(self):
         """Contacts whose answer or status was another after y -> -y or in another unit."""
         for seed, case in ((1, 5711), (1, 4531), (5, 1863), (21, 101), (21, 1361),
-                           (21, 1363), (22, 291), (22, 383), (41, 68611)):
+                           (21, 1363), (22, 291), (22, 383), (41, 68611), (9003, 893), (9101, 203)):
             with self.subTest(seed=seed, case=case):
                 self.run_program("fuzz", "--seed", seed, "--case", case, "--thorough",
                                  "-o", "case.csv")
@@ -118,6 +118,19 @@ class Fuzz(LabTest):
                 for check in ("mirror", "scale", "stiffness"):
                     self.assertLess(float(row[check]), 1e-3, row)
                     self.assertGreaterEqual(float(row[check]), 0.0, row)
+
+    def test_patches_that_are_carried_along_take_power_out(self):
+        """Small patches beside large ones, whose spin moves them."""
+        done = self.run_program("fuzz", "--seed", 9002, "--case", 756, "-o", "case.csv")
+        self.assertNotIn("power", self.read("case.csv")[0]["violation"], done.stdout)
+
+    def test_slender_strips_close_at_their_tips(self):
+        """Or a limitation says what they do not."""
+        for seed, case in ((9001, 199), (9002, 109), (9002, 678), (9003, 49),
+                           (9004, 448), (9106, 655)):
+            with self.subTest(seed=seed, case=case):
+                self.run_program("fuzz", "--seed", seed, "--case", case, "-o", "case.csv")
+                self.assertEqual(self.read("case.csv")[0]["violation"], "")
 
     def test_a_wall_stands_behind_all_patches_and_far_enough(self):
         """Two patches in dips between points, and contacts that felt a wall 12 points away."""

@@ -25,7 +25,7 @@ module faststrip_wheelset_wheel_neighbours
     ! Tuned [1]: of its overlap that the contacts beside it leave a contact to bear. Origin: chosen:
     ! its load is next to nothing.
     real(wp), parameter :: least_left = 1.0e-3_wp
-    ! Power of the load with which a moment grows at most, where all slips (Hertz).
+    ! Given: power of the load with which a moment grows at most, where all slips (Hertz).
     real(wp), parameter :: moment_power = 4.0_wp/3.0_wp
     ! Tuned [1]: of a creep force times the patch's size, how much a moment changes besides, over
     ! the change of the load. Origin: 368 contacts of S1002 on three rails: with .2 97 of 100 change
@@ -236,9 +236,9 @@ contains
         end do
     end subroutine estimate_loads
 
-    !> What is open of a load is open of its forces, too: at given creepages they grow with powers of
-    !> it from 2/3 to 1, where all slips, and moments with powers to 4/3. Parts of other powers may
-    !> cancel in one component: each gets what is open of both.
+    !> What is open of a load is open of its forces, too: at given creepages they grow with its power
+    !> 2/3 to 1, where all slips, and moments with powers to 4/3. Parts of other powers may cancel in
+    !> one component: each gets what is open of both.
     pure subroutine open_forces(mu, wheel)
         real(wp), intent(in) :: mu                   !! coefficient of friction, the static one
         type(wheel_result_t), intent(inout) :: wheel !! of `estimate_loads`, its forces estimated
