@@ -236,9 +236,9 @@ contains
         end do
     end subroutine estimate_loads
 
-    !> What is open of a load is open of its forces, too: at given creepages they grow with its power
-    !> 2/3 to 1, where all slips, and moments with powers to 4/3. Parts of other powers may cancel in
-    !> one component: each gets what is open of both.
+    !> What is open of a load is open of its forces, too: at given creepages they grow with powers
+    !> of it from 2/3 to 1, where all slips, moments with powers to 4/3. Parts of other powers may
+    !> cancel in one component: each gets what is open of both.
     pure subroutine open_forces(mu, wheel)
         real(wp), intent(in) :: mu                   !! coefficient of friction, the static one
         type(wheel_result_t), intent(inout) :: wheel !! of `estimate_loads`, its forces estimated
