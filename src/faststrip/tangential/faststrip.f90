@@ -450,7 +450,7 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
-        real(wp) :: force(2), change(2), load, bound, limit, place, part
+        real(wp) :: force(2), change(2), load, bound, limit, place
         integer :: k
 
         load = 0.0_wp
@@ -462,22 +462,21 @@ contains
         bound = rolling%mu_in_slip*load
         if (bound <= nothing) return
         limit = bound
-        part = driven_part(work(before, sums, rolling%given), missing, rolling%given)
         associate (result => sums%result)
             force = [result%fx - before%result%fx, result%fy - before%result%fy]
             ! What sticks may carry more than friction has fallen to.
             if (falls(friction)) limit = max(bound, norm2(force))
-            change = force + part*missing(:2)
+            change = force + missing(:2)
             if (norm2(change) > limit) change = change*(limit/norm2(change))
             change = change - force
             result%fx = result%fx + change(1)
             result%fy = result%fy + change(2)
             ! At the mean of the strips' places.
             place = place/load
-            result%mz = result%mz + part*missing(3) + place*change(2)
+            result%mz = result%mz + missing(3) + place*change(2)
             sums%pressed = sums%pressed - place*change(2)*rolling%plane%cphi
         end associate
-        sums%stuck = min(max(sums%stuck + part*missing(4), before%stuck), &
+        sums%stuck = min(max(sums%stuck + missing(4), before%stuck), &
                          before%stuck + sums%covered - before%covered)
         if (present(field)) call correct_field(change, first_element, rolling%mu, friction, field)
         if (.not. present(per_strip)) return
@@ -489,20 +488,6 @@ contains
             end associate
         end do
     end subroutine correct
-
-    !> The part of what is missing by which a patch still takes power out: one that other patches
-    !> carry along may not drive the bodies.
-    pure real(wp) function driven_part(power, missing, creepage)
-        real(wp), intent(in) :: power      ! of what was marched, N
-        real(wp), intent(in) :: missing(4) ! N, N, N mm, mm^2
-        type(creepage_t), intent(in) :: creepage
-
-        real(wp) :: driven
-
-        driven = missing(1)*creepage%cksi + missing(2)*creepage%ceta + missing(3)*creepage%cphi
-        driven_part = 1.0_wp
-        if (driven > power) driven_part = power/driven
-    end function driven_part
 
     !> Add forces to the elements of a patch in proportion to their loads and friction; where they
     !> slide, the slip turns with the traction.
