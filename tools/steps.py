@@ -603,14 +603,14 @@ def quick_python_tests(text):
 
 
 def pytest(text, names):
-    """Run Python tests, two at a time at least, for most of them wait for one program; but not in
-    more processes than there are files of them."""
+    """Run Python tests in as many processes as there are cores, two at least, for most tests wait
+    for one program; but not in more than there are files."""
     names = list(filter(os.path.exists, names))
     files = sum(1 if os.path.isfile(name) else len(list(pathlib.Path(name).glob("test_*.py")))
                 for name in names)
-    processes = max(2, len(os.sched_getaffinity(0))) if files > 1 else 0
+    processes = min(files, max(2, len(os.sched_getaffinity(0))))
     return told(sys.executable, "-m", "pytest", "-c", "test/pytest.ini", "--durations=20",
-                "-n", str(processes), f"--text={text}", *names)
+                "-n", str(processes if processes > 1 else 0), f"--text={text}", *names)
 
 
 def lint_checks(text):

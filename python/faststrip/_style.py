@@ -92,6 +92,9 @@ PARAMETERS: Dict[str, Any] = {
     "legend.frameon": False,
     "mathtext.fontset": "dejavusans",
     "savefig.facecolor": "white",
+    # Figures choose their layout; what was laid out stays.
+    "figure.autolayout": False,
+    "figure.constrained_layout.use": False,
 }
 
 

@@ -119,10 +119,12 @@ class Fuzz(LabTest):
                     self.assertLess(float(row[check]), 1e-3, row)
                     self.assertGreaterEqual(float(row[check]), 0.0, row)
 
-    def test_patches_that_are_carried_along_take_power_out(self):
-        """Small patches beside large ones, whose spin moves them."""
-        done = self.run_program("fuzz", "--seed", 9002, "--case", 756, "-o", "case.csv")
-        self.assertNotIn("power", self.read("case.csv")[0]["violation"], done.stdout)
+    def test_the_power_of_friction_is_what_creepages_feed_in(self):
+        """Small patches beside large ones, whose tractions carry them along."""
+        for seed, case in ((9002, 756), (9108, 233), (12, 600)):
+            with self.subTest(seed=seed, case=case):
+                self.run_program("fuzz", "--seed", seed, "--case", case, "-o", "case.csv")
+                self.assertNotIn("power", self.read("case.csv")[0]["violation"])
 
     def test_slender_strips_close_at_their_tips(self):
         """Or a limitation says what they do not."""

@@ -57,10 +57,14 @@ class LookupWheel(ProgramTest):
         (self.folder / "table.fslt").write_bytes(LookupWheel.made)
         return "table.fslt"
 
-    def whole(self, on_axes):
+    def on_axes(self):
+        """Words that make a table on the axes of that one."""
+        return "lookup", "wheel", "cone.nml", "--axes-of", self.table(), "--tests", "100"
+
+    def whole(self):
         """The bytes of a table on the axes of that one, made at once by one thread, once."""
         if LookupWheel.whole_made is None:
-            self.good(*on_axes, "-o", "whole.fslt", "--threads", "1")
+            self.good(*self.on_axes(), "-o", "whole.fslt", "--threads", "1")
             LookupWheel.whole_made = (self.folder / "whole.fslt").read_bytes()
         return LookupWheel.whole_made
 
@@ -235,9 +239,8 @@ class LookupWheel(ProgramTest):
                                            delta=1e-4 * abs(slope) + 1e-3, msg=(name, force))
 
     def test_parts_are_joined_and_ended_runs_gone_on_with(self):
-        table = self.table()
-        on_axes = ("lookup", "wheel", "cone.nml", "--axes-of", table, "--tests", "100")
-        whole = self.whole(on_axes)
+        on_axes = self.on_axes()
+        whole = self.whole()
         self.good(*on_axes, "-o", "threads.fslt", "--threads", "3")
         self.assertEqual((self.folder / "threads.fslt").read_bytes(), whole)
         for k in (1, 2):
@@ -258,8 +261,7 @@ class LookupWheel(ProgramTest):
                      says=["the same nodes, method"])
 
     def test_a_killed_run_leaves_what_it_has(self):
-        table = self.table()
-        on_axes = ("lookup", "wheel", "cone.nml", "--axes-of", table, "--tests", "100")
+        on_axes = self.on_axes()
         words = [str(self.program), *on_axes, "-o", "killed.fslt"]
         unfinished = self.folder / "killed.fslt.unfinished"
         run = subprocess.Popen(words, cwd=self.folder, stdin=subprocess.DEVNULL,
@@ -273,7 +275,7 @@ class LookupWheel(ProgramTest):
         run.wait()
         self.assertTrue(unfinished.exists())
         self.good(*on_axes, "-o", "killed.fslt", "--resume")
-        self.assertEqual((self.folder / "killed.fslt").read_bytes(), self.whole(on_axes))
+        self.assertEqual((self.folder / "killed.fslt").read_bytes(), self.whole())
 
     def test_the_layout_is_that_of_the_document(self):
         self.table()

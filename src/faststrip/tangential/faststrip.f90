@@ -238,6 +238,7 @@ contains
                            status, field, per_strip)
         if (is_error(status)) return
         result = sums%result
+        result%friction_power = max(result%friction_power, 0.0_wp)
         result%stick_fraction = stick_share(sums%stuck, sums%covered)
     end subroutine roll
 
@@ -388,8 +389,9 @@ contains
         if (rolling%is_corrected) call correct(strips, first, last, rolling, friction, before, &
                                                 missing, first_element, sums, field, per_strip)
         power = work(before, sums, rolling%given)
-        if (present(field)) call match_power(power, first_element, field)
         sums%result%friction_power = sums%result%friction_power + power
+        power = max(power, 0.0_wp)
+        if (present(field)) call match_power(power, first_element, field)
         if (present(per_strip)) then
             associate (share => per_strip%friction_power(first:last))
                 if (sum(share) > 0.0_wp) share = share*(power/sum(share))
@@ -398,15 +400,14 @@ contains
     end subroutine solve_patch
 
     !> What the creepages, and the slip that pressures cause, feed into the forces that were
-    !> added, N.
+    !> added, N. Of a patch that others carry along it may be negative: they feed it.
     pure real(wp) function work(before, after, creepage)
         type(march_sums_t), intent(in) :: before, after
         type(creepage_t), intent(in) :: creepage
 
         associate (old => before%result, new => after%result)
-            work = max(-((new%fx - old%fx)*creepage%cksi + (new%fy - old%fy)*creepage%ceta &
-                         + (new%mz - old%mz)*creepage%cphi) - (after%pressed - before%pressed), &
-                       0.0_wp)
+            work = -((new%fx - old%fx)*creepage%cksi + (new%fy - old%fy)*creepage%ceta &
+                     + (new%mz - old%mz)*creepage%cphi) - (after%pressed - before%pressed)
         end associate
     end function work
 

@@ -56,9 +56,11 @@ module faststrip_normal_strip_converge
     real(wp), parameter :: second_order = 0.05_wp
     ! Tuned [1]: the same of several patches, whose distances change. Origin: measured: .7.
     real(wp), parameter :: second_order_apart = 1.0_wp
-    ! Tuned [1]: length of a strip over its width from which on a change counts as one of the width:
-    ! near tips coefficients change over that. Origin: measured: tips of hostile gaps close to 1e-4.
-    real(wp), parameter :: slender = 20.0_wp
+    ! Tuned [1]: length of a strip over its width from which on a change counts as one of the width,
+    ! for near tips coefficients change over that; and to which, for such changes are rounding.
+    ! Origin: measured: tips of hostile gaps close to 1e-5 to 1e-4, from 10 to 40 as many gaps are
+    ! `ok`; needles of up to 1e12 widths converge.
+    real(wp), parameter :: slender = 20.0_wp, most_slender = 1.0e6_wp
     ! Tuned [1]: the steps' tolerance over that asked for, or over the square of what has changed:
     ! coefficients are evaluated anew then. Origin: chosen: steps cost little.
     real(wp), parameter :: finest = 0.3_wp
@@ -304,7 +306,7 @@ contains
         course%again = course%moved > edge_tolerance
     end subroutine judge
 
-    !> Error of a solution by linearised coefficients over the square of what has changed.
+    !> The larger of both factors of what has changed.
     pure real(wp) function second_of(strips, n_patches)
         type(pass_strips_t), intent(in) :: strips
         integer, intent(in) :: n_patches
@@ -312,7 +314,8 @@ contains
         real(wp) :: slimmest ! length over width
 
         associate (n => strips%n)
-            slimmest = maxval(strips%half_length(:n)/(strips%y_right(:n) - strips%y_left(:n)))
+            slimmest = min(most_slender, maxval(strips%half_length(:n) &
+                                                /(strips%y_right(:n) - strips%y_left(:n))))
         end associate
         second_of = max(merge(second_order, second_order_apart, n_patches == 1), &
                         second_order*(slimmest/slender)**2)
