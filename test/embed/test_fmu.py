@@ -349,7 +349,7 @@ class Units(HostTest):
                 for mine, wanted in zip(*(np.reshape(each, (4, 3))
                                           for each in (slopes, expected_slopes[name]))):
                     np.testing.assert_allclose(mine, wanted, rtol=0.0,
-                                               atol=1e-7 * np.abs(wanted).max())
+                                               atol=1e-8 * np.abs(wanted).max())
                 self.assertEqual(list(unit.get(FORCES)), before)
                 self.assertEqual(self.walk(unit), expected)
                 unit.derivatives(FORCES, [name], [1.0])  # elsewhere

@@ -532,12 +532,12 @@ class Interfaces(HostTest):
             for force in ("Fx", "Fy"):
                 self.assertAlmostEqual(both[f"est_err_{force}"] - method[f"est_err_{force}"],
                                        share * np.hypot(both["Fx_N"], both["Fs_N"]) / bound,
-                                       delta=1e-12)
+                                       delta=5e-17)
             radius = (both["area_mm2"] / np.pi)**0.5
             self.assertAlmostEqual(both["est_err_Mz"] - method["est_err_Mz"],
                                    share * (4 / 3 * abs(both["Mz_Nmm"]) / radius
                                             + 0.2 * np.hypot(both["Fx_N"], both["Fs_N"])) / bound,
-                                   delta=1e-12)
+                                   delta=5e-17)
         # A given height: all contacts are as much as that too near, and forces move by no more.
         wheelset = self.import_package().Wheelset(inclination=0.05)
         state = {"y": 6.2, "yaw": 0.004, "speed": 2e4, "wheels": "right"}

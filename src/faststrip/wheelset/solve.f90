@@ -40,7 +40,7 @@ module faststrip_wheelset_solve
                                         demand_axle_load, demand_rest, most_contacts
     use faststrip_wheelset_wheel, only: estimate_wheel, name_pressures, mirror_wheel, &
                                         reverse_wheel, lend_scratch
-    use faststrip_wheelset_wheel_neighbours, only: estimate_loads, open_forces
+    use faststrip_wheelset_wheel_neighbours, only: estimate_loads, add_load_errors
     implicit none
     private
 
@@ -924,7 +924,7 @@ contains
             associate (wheel => result%wheel(side))
                 if (model%case%estimate .and. wheel%solutions > 0) &
                     call estimate_wheel(model, workspace%wheel(side), wheel)
-                call open_forces(model%case%mu, wheel)
+                call add_load_errors(model%case%mu, wheel)
                 if (.not. is_error(wheel%status)) call name_pressures(model%case%yield, wheel)
                 wheel%roll = state%roll
                 if (side == side_left) wheel%roll = -wheel%roll

@@ -292,6 +292,7 @@ contains
         associate (strips => workspace%strips, edge => workspace%edge, middle => workspace%middle, &
                    new_edge => workspace%new_edge, pressure => workspace%newton%other(:, 1), &
                    length => workspace%newton%other(:, 2))
+            ! The unit of the others, so that roots are of ratios.
             inv2r = strips%inv2r(1)
             last = 0
             do p = 1, patches%n

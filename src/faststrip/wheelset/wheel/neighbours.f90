@@ -20,7 +20,7 @@ module faststrip_wheelset_wheel_neighbours
     implicit none
     private
 
-    public :: join_near, place_frames, press_gap, estimate_loads, open_forces
+    public :: join_near, place_frames, press_gap, estimate_loads, add_load_errors
 
     ! Tuned [1]: of its overlap that the contacts beside it leave a contact to bear. Origin: chosen:
     ! its load is next to nothing.
@@ -239,7 +239,7 @@ contains
     !> What is open of a load is open of its forces, too: at given creepages they grow with powers
     !> of it from 2/3 to 1, where all slips, moments with powers to 4/3. Parts of other powers may
     !> cancel in one component: each gets what is open of both.
-    pure subroutine open_forces(mu, wheel)
+    pure subroutine add_load_errors(mu, wheel)
         real(wp), intent(in) :: mu                   !! coefficient of friction, the static one
         type(wheel_result_t), intent(inout) :: wheel !! of `estimate_loads`, its forces estimated
 
@@ -260,7 +260,7 @@ contains
                 end associate
             end associate
         end do
-    end subroutine open_forces
+    end subroutine add_load_errors
 
     ! How the loads of a wheel grow as the gap of each contact alone is lowered, N/mm:
     ! (I + K C) S = K.
