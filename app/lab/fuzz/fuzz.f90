@@ -38,8 +38,8 @@ contains
             call usage_error('--cases must end before case ' // integer_text(huge(cases)) &
                              // ', got ' // integer_text(cases), command%name)
         work%thorough = given(command, '--thorough')
-        work%solver = option_word(command, '--solver', 'strip', [character(len=7) :: 'strip', &
-                                                                 'lattice'])
+        work%by_cells = option_word(command, '--solver', 'strip', &
+                                    [character(len=5) :: 'strip', 'cells']) == 'cells'
         work%fault = option_text(command, '--plant', '')
         if (work%fault == 'list') then
             do number = 1, size(fault_names)
@@ -89,7 +89,7 @@ contains
             option_t('--family', 'NAME', 'only the cases of this family'), &
             option_t('--read', 'FILE', 'solve nothing, check the rows that -o wrote there', &
                      reads=.true.), &
-            option_t('--solver', 'NAME', 'strip (default) or lattice'), &
+            option_t('--solver', 'NAME', 'strip (default) or cells'), &
             option_t('--thorough', '', 'every check on every case, NORM too'), &
             option_t('--plant', 'FAULT', 'put an error into every answer; list: which there are'), &
             option_t('--gap-of', 'INTEGER', 'write the gap of this case instead, to -o'), &

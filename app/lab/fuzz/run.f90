@@ -4,17 +4,14 @@ module faststrip_lab_fuzz_run
                                              ieee_invalid, ieee_divide_by_zero, ieee_overflow
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, is_error, add_limitation, st_no_finite_patch, &
-                                     st_fallback_used, st_out_of_range
+    use faststrip_base_status, only: status_t, is_error, st_no_finite_patch, st_fallback_used, &
+                                     st_out_of_range
     use faststrip_base_material, only: normal_compliance
-    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_normal_estimate_errors, only: normal_errors_t
-    use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
+    use faststrip_geometry_gap_curve, only: gap_curve_t
+    use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors
     use faststrip_normal_limitations, only: name_resolution, default_resolution
-    use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve_demand, &
-                                      estimate_strips
-    use faststrip_normal_strips, only: contact_strips_t, reserve_strips
-    use faststrip_normal_patch_curves, only: curve_integral, curve_peak
+    use faststrip_normal_strip, only: strip_options_t, set_strip_gap, strip_solve_demand
+    use faststrip_normal_strips, only: contact_strips_t
     use faststrip_contact_methods, only: normal_strip, tangential_none
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t
@@ -38,11 +35,10 @@ module faststrip_lab_fuzz_run
 
     !> What the solvers work in, and how they are asked.
     type :: workspaces_t
-        character(len=:), allocatable :: solver !! 'strip' or 'lattice'
+        logical :: by_cells = .false.           !! is every answer that of cells?
         character(len=:), allocatable :: fault  !! planted in every answer, or blank
         logical :: thorough = .false.           !! every check on every case?
         type(workspace_t) :: workspace          !! grown as needed
-        type(lattice_workspace_t) :: lattice
     end type workspaces_t
 
 contains
@@ -125,22 +121,14 @@ contains
         type(contact_case_t) :: contact
         type(contact_result_t) :: result
         integer(int64) :: before, after, rate
-        integer :: max_strips
 
         contact = case%contact_case_t
         contact%estimate = .false. ! `estimate` does
         contact%methods%tangential = tangential_none
         call reserve_workspace(work%workspace, case%methods, size(case%gap%y), verdict%status)
-        if (work%solver == 'lattice') then
-            max_strips = 3*case%methods%strips_per_patch + 150
-            call reserve_strips(work%workspace%strips, max_strips, verdict%status)
-            call reserve_lattice(work%lattice, max_strips, verdict%status)
-        end if
         call ieee_set_flag([ieee_invalid, ieee_divide_by_zero, ieee_overflow], .false.)
         call system_clock(before, rate)
-        if (work%solver == 'lattice') then
-            call solve_by_lattice(case, work, verdict)
-        else if (embedded) then
+        if (embedded .and. .not. work%by_cells) then
             call solve_contact(work%workspace, contact, result, verdict%status)
             verdict%result = result%normal
         else
@@ -148,7 +136,8 @@ contains
             if (.not. is_error(verdict%status)) &
                 call strip_solve_demand( &
                     work%workspace%solver, normal_compliance(case%material), case%demand_t, &
-                    strip_options_t(strips_per_patch=case%methods%strips_per_patch), &
+                    strip_options_t(strips_per_patch=case%methods%strips_per_patch, &
+                                    by_cells=work%by_cells), &
                     work%workspace%strips, verdict%result, verdict%status)
         end if
         call system_clock(after)
@@ -184,45 +173,6 @@ contains
         end select
     end function may_be_refused
 
-    subroutine solve_by_lattice(case, work, verdict)
-        type(fuzz_case_t), intent(in) :: case
-        type(workspaces_t), intent(inout) :: work
-        type(verdict_t), intent(inout) :: verdict
-
-        integer :: p, first, last
-
-        associate (curve => work%workspace%solver%curve, strips => work%workspace%strips, &
-                   result => verdict%result)
-            call reserve_gap_curve(curve, size(case%gap%y), verdict%status)
-            call set_gap_curve(curve, case%gap, verdict%status)
-            if (is_error(verdict%status)) return
-            call lattice_solve(work%lattice, curve, normal_compliance(case%material), case%load, &
-                               case%methods%strips_per_patch, strips, result%penetration, &
-                               verdict%status)
-            if (is_error(verdict%status)) return
-            ! As its answers are always named.
-            call add_limitation(verdict%status, st_fallback_used, 'fixed lattice')
-            result%load = case%load
-            last = 0
-            do p = 1, strips%n_patches
-                first = last + 1
-                last = last + count(strips%patch(:strips%n) == p)
-                associate (left => strips%y_left(first:last), &
-                           right => strips%y_right(first:last))
-                    result%area = result%area &
-                        + 2.0_wp*curve_integral(left, right, strips%half_length(first:last))
-                    result%pmax = max(result%pmax, &
-                                      curve_peak(left, right, strips%p0(first:last)))
-                    result%x_max = max(result%x_max, &
-                                       curve_peak(left, right, strips%half_length(first:last)))
-                end associate
-            end do
-            result%y_min = strips%y_left(1)
-            result%y_max = strips%y_right(strips%n)
-            result%n_patches = strips%n_patches
-        end associate
-    end subroutine solve_by_lattice
-
     !> What is estimated of the errors of the solution.
     subroutine estimate(case, workspace, verdict)
         class(contact_case_t), intent(in) :: case
@@ -232,7 +182,7 @@ contains
         type(normal_errors_t) :: normal_errors
         type(status_t) :: status
 
-        call estimate_strips(workspace%solver, normal_compliance(case%material), &
+        call estimate_strip_errors(workspace%solver%curve, normal_compliance(case%material), &
                              workspace%strips, verdict%result, normal_errors, status)
         if (is_error(status)) return
         verdict%est_err = [normal_errors%est_err_penetration, normal_errors%est_err_pmax, &

@@ -3,7 +3,7 @@
 !>
 !> - accuracy: the 20 contacts by 15 strips and auto, against CONTACT.
 !> - convergence: the 20 contacts by 5 to 81 strips, against 301; ellipses against Hertz.
-!> - robust: the lattice that is fallen back to on the 20 contacts and the ellipses, against CONTACT
+!> - robust: the cells that are fallen back to on the 20 contacts and the ellipses, against CONTACT
 !>   and Hertz; kinks and flat tops by 15, 31 and 201 strips and auto, against 401.
 module faststrip_lab_grid_errors
     use faststrip_base_kinds, only: wp
@@ -12,9 +12,8 @@ module faststrip_lab_grid_errors
     use faststrip_files_csv, only: csv_writer_t, put_comment, put_header, put_cell, put_cells, &
                                    put_empty_cells, end_row
     use faststrip_base_material, only: normal_compliance
-    use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve
-    use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice, lattice_solve
-    use faststrip_normal_strip, only: strips_auto
+    use faststrip_normal_strip, only: strips_auto, strip_options_t, strip_solve, set_strip_gap, &
+                                      reserve_strip_workspace
     use faststrip_normal_strips, only: usual_strips, reserve_strips
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_method, only: workspace_t
@@ -29,7 +28,6 @@ module faststrip_lab_grid_errors
     public :: bench_accuracy, bench_convergence, bench_robust
 
     integer, parameter :: strip_counts(12) = [5, 7, 9, 11, 15, 21, 27, 31, 41, 51, 61, 81]
-    integer, parameter :: lattice_strips(4) = [5, 9, 15, 31]
     ! Strips that others are judged by: of the contacts, of kinks and flat tops.
     integer, parameter :: finest = 301, finest_of_shapes = 401
     integer, parameter :: capacity = 900
@@ -42,7 +40,6 @@ module faststrip_lab_grid_errors
     type :: bench_t
         type(csv_writer_t) :: writer
         type(workspace_t) :: workspace
-        type(lattice_workspace_t) :: lattice
     end type bench_t
 
 contains
@@ -92,13 +89,12 @@ contains
 
         call read_bench_cases(folder, contacts)
         call begin(bench, file, 'CONTACT, Hertz, ' // integer_text(finest_of_shapes) // ' strips')
-        call reserve_lattice(bench%lattice, capacity, status)
         call fail_on_error(status)
         call reserve_strips(bench%workspace%strips, capacity, status)
         call fail_on_error(status)
-        call try_lattice(bench, contacts)
+        call try_cells(bench, contacts)
         call make_ellipses(contacts)
-        call try_lattice(bench, contacts)
+        call try_cells(bench, contacts)
         do kind = 1, 2
             call make_shapes(kind, contacts)
             call judge_by_strips(bench, contacts, finest_of_shapes)
@@ -225,44 +221,29 @@ contains
         end do
     end subroutine try_strips
 
-    !> The same by the lattice; its contact is the rectangles of its strips.
-    subroutine try_lattice(bench, contacts)
+    !> The same by cells.
+    subroutine try_cells(bench, contacts)
         type(bench_t), intent(inout) :: bench
         type(bench_case_t), intent(in) :: contacts(:)
 
-        type(gap_curve_t) :: curve
         type(normal_result_t) :: result
         type(status_t) :: status
         real(wp) :: errors(n_errors, size(contacts))
-        integer :: i, k
+        integer :: i
 
-        do k = 1, size(lattice_strips)
-            do i = 1, size(contacts)
-                associate (one => contacts(i), strips => bench%workspace%strips)
-                    call reserve_gap_curve(curve, size(one%gap%y), status)
-                    call fail_on_error(status)
-                    call set_gap_curve(curve, one%gap, status)
-                    call fail_on_error(status)
-                    result = normal_result_t()
-                    call lattice_solve(bench%lattice, curve, normal_compliance(one%material), &
-                                       one%load, lattice_strips(k), strips, result%penetration, &
-                                       status)
-                    call fail_on_error(status)
-                    associate (left => strips%y_left(:strips%n), &
-                               right => strips%y_right(:strips%n))
-                        result%pmax = maxval(strips%p0(:strips%n))
-                        result%area = sum(2.0_wp*strips%half_length(:strips%n)*(right - left))
-                        result%y_min = minval(left)
-                        result%y_max = maxval(right)
-                    end associate
-                    call put_errors(bench, one, 'lattice', integer_text(lattice_strips(k)), &
-                                    result, status, errors(:, i))
-                end associate
-            end do
-            call tell(contacts(1)%set // ' by the lattice, ' // integer_text(lattice_strips(k)) &
-                      // ' strips', errors)
+        do i = 1, size(contacts)
+            associate (one => contacts(i), work => bench%workspace)
+                call reserve_strip_workspace(work%solver, capacity, size(one%gap%y), status)
+                if (.not. is_error(status)) call set_strip_gap(work%solver, one%gap, status)
+                if (.not. is_error(status)) &
+                    call strip_solve(work%solver, normal_compliance(one%material), one%load, &
+                                     strip_options_t(by_cells=.true.), work%strips, result, status)
+                call fail_on_error(status)
+                call put_errors(bench, one, 'cells', '', result, status, errors(:, i))
+            end associate
         end do
-    end subroutine try_lattice
+        call tell(contacts(1)%set // ' by cells', errors)
+    end subroutine try_cells
 
     !> The row of a solution, and its errors.
     subroutine put_errors(bench, contact, method, strips, result, status, errors)

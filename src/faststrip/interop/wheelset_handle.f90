@@ -9,7 +9,6 @@ module faststrip_interop_wheelset_handle
     use faststrip_interop_lookup_handle, only: find_lookup
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
     use faststrip_interop_solution, only: mirror_t
-    use faststrip_normal_cells_lattice, only: lattice_workspace_t, lend_elements
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_contact_case, only: keeps_elements
     use faststrip_contact_methods, only: contact_methods_t
@@ -193,11 +192,9 @@ contains
     end function numbers_of
 
     ! What the next solution of a wheel may depend on, and what is asked of the last one: contacts
-    ! that it does not have, and what solutions work in, are most of the memory.
+    ! that it does not have are most of the memory.
     pure subroutine copy_memory(from, to)
         type(wheel_workspace_t), intent(inout) :: from, to
-
-        type(lattice_workspace_t) :: kept(2)
 
         to%outline = from%outline
         to%gap = from%gap
@@ -205,11 +202,7 @@ contains
         to%approach = from%approach
         to%slope = from%slope
         to%region = from%region
-        call lend_elements(from%contact(1)%solver%lattice, kept(1))
-        call lend_elements(to%contact(1)%solver%lattice, kept(2))
         to%contact(:to%n) = from%contact(:to%n)
-        call lend_elements(kept(1), from%contact(1)%solver%lattice)
-        call lend_elements(kept(2), to%contact(1)%solver%lattice)
     end subroutine copy_memory
 
     !> What the next solution of a handle depends on, as bytes.

@@ -39,6 +39,7 @@ module faststrip_normal_types
         integer :: strips_across = 0     !! strips across the patch that has most, 0: no strips
         integer :: passes = 0            !! how often the ends were moved
         integer :: iterations = 0        !! steps of all passes
+        logical :: ends_are_held = .false. !! are ends edges of cells, which did not move?
         type(cost_t) :: cost = cost_t()  !! what it took
     end type normal_result_t
 

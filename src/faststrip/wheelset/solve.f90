@@ -39,7 +39,7 @@ module faststrip_wheelset_solve
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load, demand_rest, most_contacts
     use faststrip_wheelset_wheel, only: estimate_wheel, name_pressures, mirror_wheel, &
-                                        reverse_wheel, lend_scratch
+                                        reverse_wheel
     use faststrip_wheelset_wheel_neighbours, only: estimate_loads, add_load_errors
     implicit none
     private
@@ -238,7 +238,6 @@ contains
                 call reserve_outline(wheel%outline, pair)
                 if (.not. allocated(wheel%contact)) allocate (wheel%contact(most_contacts))
                 do i = 1, most_contacts
-                    if (i > 1) call lend_scratch(wheel, i - 1, i)
                     if (needs_guide(model%case)) &
                         call reserve_workspace(wheel%contact(i), guide%methods, size(pair%y), &
                                                status)
@@ -249,7 +248,6 @@ contains
                         call reserve_contact_field(wheel%contact(i), model%case%methods, status)
                     if (is_error(status)) return
                 end do
-                call lend_scratch(wheel, most_contacts, 1)
             end associate
         end do
     end subroutine reserve_wheelset

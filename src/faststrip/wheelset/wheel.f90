@@ -17,7 +17,6 @@ module faststrip_wheelset_wheel
     use faststrip_contact_target, only: target_error, name_target
     use faststrip_contact_wanted, only: wanted_t, needs_forces
     use faststrip_tangential_force_errors, only: force_errors_t
-    use faststrip_normal_cells_lattice, only: lend_elements
     use faststrip_geometry_gap, only: gap_t
     use faststrip_wheelset_guide, only: needs_guide, take_guide
     use faststrip_geometry_contact_frame, only: contact_frame_t, frame_gap_t, in_track, along_normal
@@ -39,7 +38,7 @@ module faststrip_wheelset_wheel
 
     public :: solve_wheel_at, estimate_wheel
     public :: name_pressures, mirror_wheel, reverse_wheel
-    public :: take_motion, move_wheel, lend_scratch, find_motion, find_contact_force, place_on_wheel
+    public :: take_motion, move_wheel, find_motion, find_contact_force, place_on_wheel
     public :: add_contacts
 
     ! Tuned [1]: of the strips' last step. Origin: measured: with 1e-10 a step of a wheelset costs a
@@ -125,10 +124,8 @@ contains
                 associate (contact => wheel%contact(i))
                     load = contact%figures%normal%load
                     contact = wheel_contact_t()
-                    call lend_scratch(workspace, 1, i)
                     call solve_one(model, pair, workspace, i, regions(i), frames(:n), near(:n), &
                                    state, lowered, case, contact)
-                    call lend_scratch(workspace, i, 1)
                     wheel%solutions = wheel%solutions + 1
                     if (worse(contact%status, wheel%status)) wheel%status = contact%status
                     if (is_error(contact%status)) then
@@ -187,16 +184,6 @@ contains
         end do
         call add_contacts(wheel)
     end subroutine move_wheel
-
-    !> Lend what a solution needs and nothing keeps from one contact of a wheel to another: there is
-    !> one for all, which belongs to the first.
-    pure subroutine lend_scratch(workspace, from, to)
-        type(wheel_workspace_t), intent(inout) :: workspace !! of the wheel
-        integer, intent(in) :: from, to                     !! which contacts
-
-        if (from /= to) call lend_elements(workspace%contact(from)%solver%lattice, &
-                                           workspace%contact(to)%solver%lattice)
-    end subroutine lend_scratch
 
     !> The sums of a wheel's contacts.
     pure subroutine add_contacts(wheel)

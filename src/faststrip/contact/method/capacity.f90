@@ -22,8 +22,8 @@ module faststrip_contact_method_capacity
     !> Tuned [numbers]: memory of a workspace, tried before it is taken: of a point, a strip, an
     !> element. Origin: counted from the components of the workspaces, with a margin.
     integer(int64), parameter :: per_point = 36, per_strip = 200, per_element = 20
-    ! Tuned [numbers]: the same of a pair of strips and of the lattice. Origin: counted.
-    integer(int64), parameter :: per_pair = 12, at_least = 400000
+    ! Tuned [numbers]: the same of a pair of strips and of cells. Origin: counted.
+    integer(int64), parameter :: per_pair = 12, at_least = 50000
 
     !> A normal method that needs the gap alone.
     type, abstract, extends(normal_method_t) :: on_gap_t

@@ -5,8 +5,9 @@ module faststrip_contact_method_strip
     use faststrip_base_status, only: status_t, clear_status, is_error, add_limitation, &
                                      message_length, st_under_resolved
     use faststrip_normal_simple_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
+    use faststrip_normal_estimate_errors, only: estimate_strip_errors
     use faststrip_normal_limitations, only: name_resolution
-    use faststrip_normal_strip, only: strip_options_t, strip_solve_demand, estimate_strips
+    use faststrip_normal_strip, only: strip_options_t, strip_solve_demand
     use faststrip_normal_types, only: normal_result_t
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t, contact_result_t, demand_of
@@ -82,8 +83,9 @@ contains
         character(len=message_length) :: words
         type(status_t) :: estimate
 
-        call estimate_strips(workspace%solver, normal_compliance(case%material), &
-                             workspace%strips, result%normal, result%normal_errors, estimate)
+        call estimate_strip_errors(workspace%solver%curve, normal_compliance(case%material), &
+                                   workspace%strips, result%normal, result%normal_errors, &
+                                   estimate)
         result%is_estimated = .not. is_error(estimate)
         result%has_residuals = result%is_estimated
         if (result%is_estimated) then

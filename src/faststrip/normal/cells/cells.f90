@@ -1,4 +1,4 @@
-!> The cells of a lattice: ranges of y, each divided evenly, and how far each cell goes along x.
+!> Cells: strips whose edges stay where they are. Ranges of y, each divided evenly.
 module faststrip_normal_cells
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
@@ -7,11 +7,14 @@ module faststrip_normal_cells
     implicit none
     private
 
-    public :: lattice_cells_t, reserve_cells, position_cells, set_reach, record_strips
-    public :: max_ranges, same
+    public :: cells_t, reserve_cells, position_cells, start_lengths, next_run, record_strips
+    public :: max_ranges, most_cells, same
 
     ! Tuned [ranges]: Most ranges. Origin: capacity.
     integer, parameter :: max_ranges = 64
+    !> Most cells.
+    !> Tuned [cells]. Origin: cost: it rises with its cube.
+    integer, parameter :: most_cells = 48
     ! Tuned [1]. Origin: chosen: far below the error of a length.
     real(wp), parameter :: same = 1.0e-6_wp      ! lengths that differ by less, relatively
 
@@ -21,53 +24,56 @@ module faststrip_normal_cells
     ! integers to each other, and a half would leave the number to the rounding.
     ! Tuned [cells]. Origin: chosen: no ratio of small whole numbers.
     real(wp), parameter :: cells_rounding = 0.5369_wp
-    ! Tuned [1]. Origin: chosen: lengths hardly grow more from one lattice to the next.
-    real(wp), parameter :: reach_margin = 1.3_wp ! of a cell, over the length found last
-    ! Tuned [1]. Origin: chosen.
-    real(wp), parameter :: depth_margin = 1.05_wp ! the penetration may still rise by
+    ! Tuned [1]: length of a cell over that of the undeformed overlap, to begin with. Origin: a
+    ! round contact.
+    real(wp), parameter :: first_share = 0.7_wp
     ! Tuned [1]. Origin: chosen: keeps cells at the rim from being needles.
-    real(wp), parameter :: least_reach = 0.02_wp ! penetration, of all, that gives a cell's length
+    real(wp), parameter :: least_overlap = 0.02_wp ! of the penetration, that gives a cell's length
 
-    !> The cells, and of the lattice before those that pressed.
-    type :: lattice_cells_t
-        integer :: capacity = 0 !! most cells
+    !> The cells, those that pressed when they lay elsewhere, and what their solution needs.
+    type :: cells_t
         integer :: n = 0        !! cells
-        integer :: n_old = 0    !! that pressed on the lattice before
+        integer :: n_old = 0    !! that pressed before
         integer :: n_ranges = 0 !! ranges of y, each divided into even cells
+        real(wp) :: depth = 0.0_wp !! penetration above the lowest height that closes the gap, mm
+        logical :: solved = .false. !! are there pressures?
         real(wp) :: y_from(max_ranges) = 0.0_wp, y_to(max_ranges) = 0.0_wp !! their ends, mm
         integer :: number(max_ranges) = 0 !! of cells in each
         real(wp), allocatable :: y_left(:), y_right(:), y(:) !! edges and middles of the cells, mm
         real(wp), allocatable :: height(:)      !! gap above its lowest place, mm
         real(wp), allocatable :: inv2r(:)       !! A = 1/(2R), 1/mm
         real(wp), allocatable :: p0(:)          !! pressure in the middle, MPa
-        real(wp), allocatable :: half_length(:) !! of the strip that stands for it, mm
-        real(wp), allocatable :: reach(:)       !! how far its elements go along x, mm
-        real(wp), allocatable :: old_y(:), old_half_length(:) !! of the lattice before, mm
+        real(wp), allocatable :: half_length(:) !! mm
+        real(wp), allocatable :: length(:)      !! half-lengths that the tips ask for, mm
+        real(wp), allocatable :: old_y(:), old_half_length(:) !! of those that pressed before, mm
+        real(wp), allocatable :: influence(:, :) !! of p0 on middles, mm
+        real(wp), allocatable :: matrix(:, :)    !! that of the cells that press, factored
+        real(wp), allocatable :: column(:, :)    !! (2) its right sides and solutions
+        real(wp), allocatable :: edges(:, :)     !! (2) of the cells that press, mm
+        integer, allocatable :: pivot(:), at(:)
         logical, allocatable :: presses(:)      !! does it carry any load?
-    end type lattice_cells_t
+    end type cells_t
 
 contains
 
-    !> Allocate for so many cells, unless there is capacity already.
-    subroutine reserve_cells(cells, capacity)
-        type(lattice_cells_t), intent(inout) :: cells !! sized
-        integer, intent(in) :: capacity               !! cells of all ranges together
+    !> Allocate, unless that is done.
+    subroutine reserve_cells(cells)
+        type(cells_t), intent(inout) :: cells !! sized
 
-        if (cells%capacity >= capacity) return
-        if (allocated(cells%p0)) deallocate ( &
-            cells%y_left, cells%y_right, cells%y, cells%height, cells%inv2r, cells%p0, &
-            cells%half_length, cells%reach, cells%old_y, cells%old_half_length, cells%presses)
-        allocate (cells%y_left(capacity), cells%y_right(capacity), cells%y(capacity), &
-                  cells%height(capacity), cells%inv2r(capacity), cells%p0(capacity), &
-                  cells%half_length(capacity), cells%reach(capacity), cells%old_y(capacity), &
-                  cells%old_half_length(capacity), source=0.0_wp)
-        allocate (cells%presses(capacity), source=.false.)
-        cells%capacity = capacity
+        integer, parameter :: m = most_cells
+
+        if (allocated(cells%p0)) return
+        allocate (cells%y_left(m), cells%y_right(m), cells%y(m), cells%height(m), cells%inv2r(m), &
+                  cells%p0(m), cells%half_length(m), cells%length(m), cells%old_y(m), &
+                  cells%old_half_length(m), cells%influence(m, m), cells%matrix(m, m), &
+                  cells%column(m, 2), cells%edges(m, 2), source=0.0_wp)
+        allocate (cells%pivot(m), cells%at(m), source=0)
+        allocate (cells%presses(m), source=.false.)
     end subroutine reserve_cells
 
-    !> Divide the ranges into even cells, and keep the lengths of the lattice before.
+    !> Divide the ranges into even cells, and keep the lengths of those before.
     pure subroutine position_cells(cells, curve, wanted, most)
-        type(lattice_cells_t), intent(inout) :: cells !! with its ranges
+        type(cells_t), intent(inout) :: cells !! with its ranges
         type(gap_curve_t), intent(in) :: curve        !! a gap that was set
         integer, intent(in) :: wanted                 !! cells across the widest range
         integer, intent(in) :: most                   !! cells of all ranges together
@@ -88,7 +94,7 @@ contains
 
     !> Keep places and lengths of the cells that press.
     pure subroutine keep_lengths(cells)
-        type(lattice_cells_t), intent(inout) :: cells
+        type(cells_t), intent(inout) :: cells
 
         integer :: k, n
 
@@ -104,7 +110,7 @@ contains
 
     !> Join ranges that are nearest to each other until they are not too many.
     pure subroutine join_nearest(cells, most)
-        type(lattice_cells_t), intent(inout) :: cells
+        type(cells_t), intent(inout) :: cells
         integer, intent(in) :: most
 
         real(wp) :: nearest
@@ -129,7 +135,7 @@ contains
 
     !> How many cells each range gets: by its width, but not less than a few.
     pure subroutine count_cells(cells, wanted, most)
-        type(lattice_cells_t), intent(inout) :: cells
+        type(cells_t), intent(inout) :: cells
         integer, intent(in) :: wanted, most
 
         real(wp) :: widest
@@ -151,7 +157,7 @@ contains
 
     !> Cut the ranges into cells; neighbours have one edge.
     pure subroutine cut_ranges(cells)
-        type(lattice_cells_t), intent(inout) :: cells
+        type(cells_t), intent(inout) :: cells
 
         real(wp) :: width
         integer :: r, k, i
@@ -172,55 +178,66 @@ contains
         cells%n = i
     end subroutine cut_ranges
 
-    !> How far the cells go along x, mm: to where the undeformed gap is the penetration, but not
-    !> far beyond the lengths of the lattice before.
-    pure subroutine set_reach(cells, depth)
-        type(lattice_cells_t), intent(inout) :: cells !! positioned
-        real(wp), intent(in) :: depth !! penetration above the lowest height, mm
+    !> Half-lengths to begin with: those of the cells before, or a part of the undeformed overlap's.
+    pure subroutine start_lengths(cells)
+        type(cells_t), intent(inout) :: cells !! positioned, with a depth
 
-        real(wp) :: length, share
+        real(wp) :: share
         integer :: k, i
 
         do k = 1, cells%n
-            cells%reach(k) = sqrt(max(depth_margin*depth - cells%height(k), &
-                                          least_reach*depth)/cells%inv2r(k))
-            if (cells%n_old == 0) cycle
+            if (cells%n_old == 0) then
+                cells%half_length(k) = first_share*sqrt(max(cells%depth - cells%height(k), &
+                                                            least_overlap*cells%depth)/cells%inv2r(k))
+                cycle
+            end if
             i = count(cells%old_y(:cells%n_old) <= cells%y(k))
             if (i == 0 .or. i == cells%n_old) then
-                length = cells%old_half_length(max(i, 1))
+                cells%half_length(k) = cells%old_half_length(max(i, 1))
             else
-                share = (cells%y(k) - cells%old_y(i)) &
-                        /(cells%old_y(i + 1) - cells%old_y(i))
-                length = (1.0_wp - share)*cells%old_half_length(i) &
-                         + share*cells%old_half_length(i + 1)
+                share = (cells%y(k) - cells%old_y(i))/(cells%old_y(i + 1) - cells%old_y(i))
+                cells%half_length(k) = (1.0_wp - share)*cells%old_half_length(i) &
+                                       + share*cells%old_half_length(i + 1)
             end if
-            cells%reach(k) = min(cells%reach(k), reach_margin*length)
         end do
-    end subroutine set_reach
+    end subroutine start_lengths
 
-    !> Hand over the strips that press.
+    !> The next cells side by side that press.
+    pure subroutine next_run(cells, first, last)
+        type(cells_t), intent(in) :: cells !! with the pressures found
+        integer, intent(out) :: first      !! of the run, n + 1 if there is none
+        integer, intent(inout) :: last     !! of the run before, 0 to begin with; of this one
+
+        do first = last + 1, cells%n
+            if (cells%presses(first)) exit
+        end do
+        do last = first, cells%n - 1
+            if (.not. cells%presses(last + 1) .or. cells%y_left(last + 1) > cells%y_right(last)) &
+                exit
+        end do
+    end subroutine next_run
+
+    !> Hand over those that press.
     pure subroutine record_strips(cells, strips)
-        type(lattice_cells_t), intent(in) :: cells !! with the pressures found
+        type(cells_t), intent(in) :: cells              !! with the pressures found
         type(contact_strips_t), intent(inout) :: strips !! reserved
 
-        integer :: k, n
+        integer :: first, last, n
 
-        n = 0
+        strips%n = 0
         strips%n_patches = 0
-        do k = 1, cells%n
-            if (.not. cells%presses(k)) cycle
-            n = n + 1
-            strips%y_left(n) = cells%y_left(k)
-            strips%y_right(n) = cells%y_right(k)
-            strips%half_length(n) = cells%half_length(k)
-            strips%p0(n) = cells%p0(k)
-            if (n == 1) then
-                strips%n_patches = 1
-            else if (strips%y_left(n) > strips%y_right(n - 1)) then
-                strips%n_patches = strips%n_patches + 1
-            end if
-            strips%patch(n) = strips%n_patches
+        last = 0
+        do
+            call next_run(cells, first, last)
+            if (first > cells%n) exit
+            strips%n_patches = strips%n_patches + 1
+            n = strips%n + last - first + 1
+            strips%y_left(strips%n + 1:n) = cells%y_left(first:last)
+            strips%y_right(strips%n + 1:n) = cells%y_right(first:last)
+            strips%half_length(strips%n + 1:n) = cells%half_length(first:last)
+            strips%p0(strips%n + 1:n) = cells%p0(first:last)
+            strips%patch(strips%n + 1:n) = strips%n_patches
+            strips%n = n
         end do
-        strips%n = n
     end subroutine record_strips
 end module faststrip_normal_cells

@@ -1,14 +1,13 @@
-!> Where the deformed surfaces of a lattice's solution overlap outside the cells that press.
+!> Where the deformed surfaces overlap outside the cells that press.
 module faststrip_normal_cells_overlap
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
     use faststrip_influence_row, only: center_influence_column
-    use faststrip_normal_cells, only: lattice_cells_t, max_ranges, same
-    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_normal_cells, only: cells_t, max_ranges, same
     implicit none
     private
 
-    public :: ranges_t, add_overlaps, find_waves, overlap_tolerance, named_overlap
+    public :: ranges_t, add_overlaps, overlap_tolerance, named_overlap
 
     !> Overlaps that are left, over the penetration: of cells as of strips.
     !> Tuned [1]. Origin: far below the errors of 15 strips.
@@ -29,7 +28,7 @@ contains
 
     !> Add a range around the deepest overlap of each stretch outside the strips that press.
     pure subroutine add_overlaps(cells, curve, compliance, depth, ranges, overlap)
-        type(lattice_cells_t), intent(in) :: cells !! with the pressures found
+        type(cells_t), intent(in) :: cells !! with the pressures found
         type(gap_curve_t), intent(in) :: curve     !! a gap that was set
         real(wp), intent(in) :: compliance         !! H of eq. (4), 1/MPa
         real(wp), intent(in) :: depth              !! penetration above the lowest height, mm
@@ -55,7 +54,7 @@ contains
 
     !> The same for one stretch; nothing is added if the overlap is too small to count.
     pure subroutine add_overlap(cells, curve, compliance, depth, low, high, ranges, overlap)
-        type(lattice_cells_t), intent(in) :: cells
+        type(cells_t), intent(in) :: cells
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth, low, high
         type(ranges_t), intent(inout) :: ranges
@@ -78,7 +77,7 @@ contains
 
     !> The deepest overlap of a stretch, among the valleys of the curve in it and even points.
     pure subroutine find_deepest(cells, curve, compliance, depth, low, high, deepest, y_deepest)
-        type(lattice_cells_t), intent(in) :: cells
+        type(cells_t), intent(in) :: cells
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth, low, high
         real(wp), intent(out) :: deepest   ! mm
@@ -115,7 +114,7 @@ contains
 
     !> Take the deepest overlap at some points, if it is deeper than what was found before.
     pure subroutine take_deepest(cells, curve, compliance, depth, y, deepest, y_deepest)
-        type(lattice_cells_t), intent(in) :: cells
+        type(cells_t), intent(in) :: cells
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth, y(:)
         real(wp), intent(inout) :: deepest, y_deepest
@@ -152,7 +151,7 @@ contains
     !> Where an overlap ends, found within a factor of two.
     pure real(wp) function edge_of_overlap(cells, curve, compliance, depth, low, high, y_deepest, &
                                            direction) result(y_edge)
-        type(lattice_cells_t), intent(in) :: cells
+        type(cells_t), intent(in) :: cells
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth, low, high, y_deepest
         real(wp), intent(in) :: direction ! -1: to the left, 1: to the right
@@ -174,7 +173,7 @@ contains
 
     !> By how much the deformed surfaces overlap, mm; less than zero: the gap.
     pure subroutine find_overlaps(cells, curve, compliance, depth, y, overlap)
-        type(lattice_cells_t), intent(in) :: cells
+        type(cells_t), intent(in) :: cells
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth, y(:)
         real(wp), intent(out) :: overlap(:)
@@ -193,25 +192,4 @@ contains
             overlap = overlap - compliance*cells%p0(s)*influence(:size(y))
         end do
     end subroutine find_overlaps
-
-    !> The pressures that would close the gap at the edges of the strips, MPa, into `reach`.
-    subroutine find_waves(cells, curve, compliance, depth, strips)
-        type(lattice_cells_t), intent(inout) :: cells !! with the pressures found
-        type(gap_curve_t), intent(in) :: curve        !! a gap that was set
-        real(wp), intent(in) :: compliance            !! H of eq. (4), 1/MPa
-        real(wp), intent(in) :: depth                 !! penetration above the lowest height, mm
-        type(contact_strips_t), intent(in) :: strips  !! that were handed over
-
-        real(wp) :: overlap(3), left, right
-        integer :: k
-
-        do k = 1, strips%n
-            left = strips%y_left(k)
-            right = strips%y_right(k)
-            call find_overlaps(cells, curve, compliance, depth, &
-                               [left, 0.5_wp*(left + right), right], overlap)
-            cells%reach(k) = abs(0.5_wp*(overlap(1) + overlap(3)) - overlap(2)) &
-                                 /(2.0_wp*compliance*(right - left))
-        end do
-    end subroutine find_waves
 end module faststrip_normal_cells_overlap

@@ -1,84 +1,25 @@
-!> Where a lattice starts, and the ranges of y that it covers: at first where the bodies would
-!> overlap undeformed at the penetration that a load is likely to need, then the patches of the
-!> lattice before and what overlaps beside them.
+!> The ranges of y that cells cover: at first where the bodies would overlap undeformed, then the
+!> patches of the cells before and what overlaps beside them.
 module faststrip_normal_cells_ranges
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: most_steps
     use faststrip_geometry_gap_curve, only: gap_curve_t, level_intervals
-    use faststrip_normal_cells, only: lattice_cells_t, max_ranges
+    use faststrip_normal_cells, only: cells_t, next_run, max_ranges
     use faststrip_normal_cells_overlap, only: ranges_t, add_overlaps
     implicit none
     private
 
-    public :: start_depth, first_ranges, next_ranges
+    public :: first_ranges, next_ranges
 
     ! Between ranges, of the widest one: nearer ones are joined.
     ! Tuned [1]: narrowest range, over the widest. Origin: chosen.
     real(wp), parameter :: finest_distance = 1.0e-3_wp
-    ! Tuned [1]. Origin: virtual penetration of a Hertz contact (Piotrowski and Kik).
-    real(wp), parameter :: start_level = 0.55_wp     ! of the penetration: virtual penetration
-    ! Tuned [1]. Origin: a round contact between plane strain and a needle.
-    real(wp), parameter :: start_factor = 0.6_wp     ! of the plane-strain pressure
 
 contains
-
-    !> Penetration, above the lowest height, at which pressures of 0.6 of the plane-strain one
-    !> where the gap is below 0.55 D carry the load.
-    pure subroutine start_depth(curve, compliance, load, depth)
-        type(gap_curve_t), intent(in) :: curve !! a gap that was set
-        real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
-        real(wp), intent(in) :: load           !! N
-        real(wp), intent(out) :: depth         !! mm
-
-        ! Tuned [1]: Range of the search to either side. Origin: safeguard: all loads that can be
-        ! solved.
-        real(wp), parameter :: reach_of_search = 2.0_wp**200
-        real(wp) :: low, high, unit
-        integer :: i
-
-        ! In a length of the case's own, with which the unit of length does not matter.
-        unit = sqrt(compliance*load)
-        low = unit/reach_of_search
-        high = unit*reach_of_search
-        do i = 1, most_steps
-            depth = low*sqrt(high/low)
-            if (start_load(curve, compliance, depth) < load) then
-                low = depth
-            else
-                high = depth
-            end if
-            if (high - low <= 2.0_wp*epsilon(1.0_wp)*low) exit
-        end do
-    end subroutine start_depth
-
-    !> That load; a gap straight between the ends of its monotone pieces lets it rise evenly, so
-    !> that one penetration belongs to it.
-    pure real(wp) function start_load(curve, compliance, depth) result(load)
-        type(gap_curve_t), intent(in) :: curve
-        real(wp), intent(in) :: compliance, depth
-
-        real(wp) :: level, low, high, width
-        integer :: j
-
-        level = start_level*depth
-        load = 0.0_wp
-        do j = 1, curve%n_pieces
-            width = curve%y_node(j + 1) - curve%y_node(j)
-            low = min(curve%h_node(j), curve%h_node(j + 1)) - curve%h_lowest
-            high = max(curve%h_node(j), curve%h_node(j + 1)) - curve%h_lowest
-            if (level >= high) then
-                load = load + width*(level - 0.5_wp*(low + high))
-            else if (level > low) then
-                load = load + width*((level - low)*(0.5_wp*((level - low)/(high - low))))
-            end if
-        end do
-        load = start_factor*(load/compliance)
-    end function start_load
 
     !> The first ranges are where the gap is below the penetration; one range from the first to the
     !> last if there are too many.
     pure subroutine first_ranges(cells, curve, depth)
-        type(lattice_cells_t), intent(inout) :: cells !! gets the ranges
+        type(cells_t), intent(inout) :: cells !! gets the ranges
         type(gap_curve_t), intent(in) :: curve        !! a gap that was set
         real(wp), intent(in) :: depth                 !! penetration above the lowest height, mm
 
@@ -97,10 +38,10 @@ contains
         cells%n_ranges = n
     end subroutine first_ranges
 
-    !> The ranges of the next lattice: the patches found, somewhat wider, and places where the
+    !> The next ranges: the patches found, somewhat wider, and places where the
     !> surfaces overlap.
     pure subroutine next_ranges(cells, curve, compliance, depth, grow, overlap)
-        type(lattice_cells_t), intent(inout) :: cells !! with the pressures found; gets the ranges
+        type(cells_t), intent(inout) :: cells !! with the pressures found; gets the ranges
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
         real(wp), intent(in) :: depth          !! penetration above the lowest height, mm
@@ -117,35 +58,24 @@ contains
 
     !> The patches found, wider by some cells.
     pure subroutine take_patches(cells, curve, grow, ranges)
-        type(lattice_cells_t), intent(in) :: cells
+        type(cells_t), intent(in) :: cells
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: grow
         type(ranges_t), intent(out) :: ranges
 
-        integer :: first, last, m
+        integer :: first, last
 
-        m = 0
+        ranges%n = 0
         last = 0
-        do
-            first = last + 1
-            do while (first <= cells%n)
-                if (cells%presses(first)) exit
-                first = first + 1
-            end do
-            if (first > cells%n .or. m == max_ranges) exit
-            last = first
-            do while (last < cells%n)
-                if (.not. cells%presses(last + 1) &
-                    .or. cells%y_left(last + 1) > cells%y_right(last)) exit
-                last = last + 1
-            end do
-            m = m + 1
-            ranges%from(m) = max(curve%y(1), cells%y_left(first) &
-                                 - grow*(cells%y_right(first) - cells%y_left(first)))
-            ranges%to(m) = min(curve%y(curve%n), cells%y_right(last) &
-                               + grow*(cells%y_right(last) - cells%y_left(last)))
+        do while (ranges%n < max_ranges)
+            call next_run(cells, first, last)
+            if (first > cells%n) exit
+            ranges%n = ranges%n + 1
+            ranges%from(ranges%n) = max(curve%y(1), cells%y_left(first) &
+                                        - grow*(cells%y_right(first) - cells%y_left(first)))
+            ranges%to(ranges%n) = min(curve%y(curve%n), cells%y_right(last) &
+                                      + grow*(cells%y_right(last) - cells%y_left(last)))
         end do
-        ranges%n = m
     end subroutine take_patches
 
     !> Into the order of y.
@@ -168,7 +98,7 @@ contains
     !> Hand the ranges over, joined where they meet.
     pure subroutine join_ranges(ranges, cells)
         type(ranges_t), intent(in) :: ranges
-        type(lattice_cells_t), intent(inout) :: cells
+        type(cells_t), intent(inout) :: cells
 
         real(wp) :: finest
         integer :: k, last

@@ -84,6 +84,8 @@ module faststrip_normal_estimate_errors
     ! Tuned [1]: The same, of unresolved heights and of A. Origin: calibrated; with 3 five strips of
     ! a test where A varies much are not bounded.
     real(wp), parameter :: unresolved_factor = 1.7_wp, longitudinal_factor = 4.5_wp
+    ! Tuned [1]: The area's, of the strips at ends that are held. Origin: calibrated.
+    real(wp), parameter :: end_share = 0.3_wp
     ! Tuned [1]: Least estimate of area and of maximum pressure, times n squared. Origin:
     ! calibrated.
     real(wp), parameter :: least_estimate = 0.2_wp
@@ -106,6 +108,7 @@ module faststrip_normal_estimate_errors
         real(wp) :: widths = 0.0_wp ! of all strips, mm
         real(wp) :: edge = 0.0_wp   ! squares of e, times widths
         real(wp) :: section = 0.0_wp, section_size = 0.0_wp ! means of m and of |m|
+        real(wp) :: ends = 0.0_wp   ! areas of strips at ends of patches, mm2
         real(wp) :: loads = 0.0_wp  ! width times length times pressure, N
         real(wp) :: peak_extra = 0.0_wp ! pressure that the peak and its neighbours ask for, MPa
         real(wp) :: largest_p0 = 0.0_wp ! with what its strip asks for, MPa
@@ -202,6 +205,8 @@ contains
             i = k - from + 1
             sums%edge = sums%edge &
                         + width(i)*(0.5_wp*(abs(gap(right(i) - 1)) + abs(gap(right(i)))))**2
+            if (starts_patch(strips, k) .or. ends_patch(strips, k)) &
+                sums%ends = sums%ends + 2.0_wp*width(i)*strips%half_length(k)
             sums%loads = sums%loads + width(i)*strips%half_length(k)*max(strips%p0(k), 0.0_wp)
             extra = edge_factor*abs(edge(i) - mean)*(depth/compliance) &
                     /wave_length(width(i), strips%half_length(k)) &
@@ -305,6 +310,8 @@ contains
                             - bias_corrected*(result%correction - 1.0_wp)) &
             + penetration_section*sums%section_size + penetration_edge*edge
         normal_errors%est_err_area = area_section*sums%section_size + area_edge*edge + least
+        if (result%ends_are_held) normal_errors%est_err_area = normal_errors%est_err_area &
+                                                               + end_share*sums%ends/result%area
         normal_errors%est_err_pmax = max(sums%peak_extra, &
                                          sums%largest_p0 - strips%p0(sums%peak))/result%pmax &
             + load_factor*sums%section_size*sums%widths*(per_length/sums%loads) + least

@@ -31,7 +31,7 @@ module faststrip_normal_strip_level
     ! Tuned [passes]: after so many none of which was better the best stands, if it may. Origin:
     ! chosen for the time: ends that come and go do so without rest.
     integer, parameter :: max_idle_passes = 4
-    ! Tuned [splits]. Origin: chosen; what splits more often ends in the lattice.
+    ! Tuned [splits]. Origin: chosen; what splits more often ends in cells.
     integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     ! Work of all ways together: so much, and so many steps of all strips.
     ! Tuned [influence coefficients; steps]. Origin: chosen: bounds the time of gaps that do not

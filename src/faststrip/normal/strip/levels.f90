@@ -1,20 +1,21 @@
 !> The ways to a solution by strips, in the order in which they are tried.
 !>
 !> Strips and ends together, from the last solution or from the level set of a Hertz ellipse; where
-!> that does not converge, from the patches of a row of cells, together and then in turn; then few
-!> strips in turn. More than 20 strips are reached by way of 15. A gap whose ends do not converge,
-!> within a bounded work, gets the answer of `faststrip_normal_cells_lattice`.
+!> that does not converge, from the patches of coarse cells; then from those of fine cells, in turn.
+!> More than 15 strips are reached by way of 15, 31 and so on. A gap whose ends do not converge, within a
+!> bounded work, gets the answer of the fine cells.
 module faststrip_normal_strip_levels
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, is_error, st_fallback_used
+    use faststrip_base_status, only: status_t, set_status, is_error, number_text, &
+                                     st_fallback_used, st_linear_algebra, st_out_of_range
     use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors
-    use faststrip_normal_cells_lattice, only: lattice_solve, lattice_solve_penetration, &
-                                              forget_lattice_errors
-    use faststrip_normal_limitations, only: default_resolution
+    use faststrip_normal_cells, only: record_strips
+    use faststrip_normal_cells_solve, only: solve_cells
+    use faststrip_normal_limitations, only: check_depth, default_resolution
     use faststrip_normal_strips, only: contact_strips_t, usual_strips, usual_strip_tolerance
-    use faststrip_normal_strip_figures, only: summarize
+    use faststrip_normal_strip_figures, only: summarize, correction_of
     use faststrip_normal_strip_patches, only: fewest_strips
-    use faststrip_normal_strip_row, only: find_patches
+    use faststrip_normal_strip_find, only: find_patches
     use faststrip_normal_strip_level, only: level_t, attempt_t, solve_together, &
                                             solve_in_turn
     use faststrip_normal_strip_start, only: start_patches, resume_patches
@@ -32,11 +33,9 @@ module faststrip_normal_strip_levels
     integer, parameter :: strips_auto = 0
     integer, parameter :: strips_auto_most = 81
 
-    ! Tuned [strips]: fewer than were asked, where those do not converge. Origin: chosen.
-    integer, parameter :: few_strips = 7
-    ! Tuned [strips]: first of many strips; more than these are reached by way of others. Origin:
-    ! chosen for the time of a cold start.
-    integer, parameter :: first_level = 15, most_at_once = 20
+    ! Tuned [strips]: more than these are reached by way of these. Origin: chosen for the time of a
+    ! cold start; 31 at once converge in fewer rough gaps.
+    integer, parameter :: first_level = 15
     ! Tuned [1]: strips of a level, less one, over those of the one before, at most. Origin:
     ! convergence: 41 strips from 15 are too far where A jumps.
     integer, parameter :: level_factor = 2
@@ -49,15 +48,11 @@ module faststrip_normal_strip_levels
     ! Tuned [1]. Origin: accuracy wanted: half a percent and a tenth.
     real(wp), parameter :: auto_pmax = 5.0e-3_wp, auto_penetration = 1.0e-3_wp ! estimated errors
 
-    ! Tuned [strips]. Origin: chosen for time and errors of the lattice.
-    integer, parameter :: most_fallback_strips = 31 ! its cost rises steeply, its accuracy does not
-
     ! The ways to a solution, in the order in which they are tried. Given: numbers of kinds.
     integer, parameter :: from_last = 0   ! solution of the workspace
     integer, parameter :: from_level = 1  ! set of a Hertz ellipse
-    integer, parameter :: from_row = 2    ! of cells
-    integer, parameter :: row_in_turn = 3 ! the same, strips and ends in turn
-    integer, parameter :: few_first = 4   ! few strips from a level set, in turn
+    integer, parameter :: from_coarse = 2 ! cells
+    integer, parameter :: from_fine = 3   ! cells, strips and ends in turn
 
     !> What the user chooses.
     type :: strip_options_t
@@ -67,6 +62,8 @@ module faststrip_normal_strip_levels
         logical :: warm_start = .false.   !! from the last solution of this workspace, if any
         logical :: stays = .false.
             !! is this a neighbour of the last solution, with its patches and strips?
+        logical :: by_cells = .false.
+            !! is the answer to be that of cells, whether or not ends converge?
         real(wp) :: resolution_limit = default_resolution
             !! `strips_auto` goes on until no estimated error is above this
     end type strip_options_t
@@ -80,7 +77,7 @@ module faststrip_normal_strip_levels
 
 contains
 
-    !> Solve by strips, or else by the lattice.
+    !> Solve by strips, or else by cells.
     subroutine solve_by_levels(workspace, compliance, demand, options, strips, result, &
                                n_converged, all_converged, status)
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
@@ -89,32 +86,30 @@ contains
         type(strip_options_t), intent(in) :: options !! number of strips, tolerance, start
         type(contact_strips_t), intent(inout) :: strips !! of the solution
         type(normal_result_t), intent(inout) :: result !! its figures
-        integer, intent(out) :: n_converged    !! strips per patch of the solution; 0: the lattice's
+        integer, intent(out) :: n_converged    !! strips per patch of the solution; 0: cells'
         logical, intent(out) :: all_converged  !! did as many as were asked converge?
-        type(status_t), intent(inout) :: status !! those of the lattice
+        type(status_t), intent(inout) :: status !! those of cells
 
         type(plan_t) :: plan
         type(attempt_t) :: attempt
         integer :: way, first_way, level
         logical :: found
 
-        call forget_lattice_errors(workspace%lattice)
         plan = level_plan(options%strips_per_patch)
+        level = 1
         n_converged = 0
         attempt%converged = .false.
         first_way = merge(from_last, from_level, options%warm_start .and. workspace%old%n > 0)
-        do way = first_way, few_first
-            call begin(workspace, compliance, demand, way, attempt, found)
-            if (.not. found) cycle
+        if (options%by_cells) first_way = from_fine
+        do way = first_way, from_fine
+            call begin(workspace, compliance, demand, way, size(strips%p0), attempt, found)
+            if (.not. found .or. options%by_cells) cycle
             if (way == from_last) then
                 level = warm_level(plan, maxval(workspace%old%at(:workspace%old%n)%n_strips))
             else if (way == from_level) then
                 level = 1
-            else if (way == few_first) then
-                if (n_converged > 0) exit
-                plan = with_few(plan)
             end if
-            ! A row starts where the level before has failed.
+            ! Cells start where the level before has failed.
             call climb(workspace, compliance, demand, options, plan, way, level, attempt, &
                        strips, result, n_converged)
             if (attempt%converged .or. (plan%is_auto .and. n_converged > 0)) exit
@@ -123,9 +118,7 @@ contains
         result%iterations = result%cost%iterations
         if (n_converged == 0) then
             workspace%old%n = 0
-            call fall_back(workspace, compliance, demand, &
-                           min(maxval(plan%strips(:plan%n)), most_fallback_strips), strips, &
-                           result, status)
+            call take_cells(workspace, strips, result, status)
             return
         end if
         workspace%old_load = result%load
@@ -136,11 +129,12 @@ contains
     end subroutine solve_by_levels
 
     !> What a way starts from; but for the last solution, no bit of one before is left.
-    subroutine begin(workspace, compliance, demand, way, attempt, found)
+    subroutine begin(workspace, compliance, demand, way, room, attempt, found)
         type(strip_workspace_t), intent(inout) :: workspace
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
         integer, intent(in) :: way
+        integer, intent(in) :: room   ! most fine cells
         type(attempt_t), intent(inout) :: attempt
         logical, intent(out) :: found ! are there patches?
 
@@ -155,9 +149,9 @@ contains
         workspace%old%n = 0
         call forget_factors(workspace)
         call forget_edges(workspace, .true.)
-        attempt%in_doubt = way == from_row .or. way == row_in_turn
-        if (attempt%in_doubt) call find_patches(workspace, compliance, demand, attempt%patches, &
-                                        attempt%penetration, found)
+        attempt%in_doubt = way > from_level
+        if (attempt%in_doubt) call find_patches(workspace, compliance, demand, way == from_fine, &
+                                                room, attempt%patches, attempt%penetration, found)
     end subroutine begin
 
     !> Solve with the numbers of strips of a plan, each from the one before.
@@ -183,12 +177,9 @@ contains
             asked = level_t(plan%strips(level), maxval(plan%strips(:plan%n)), options%tolerance, &
                             way /= from_level .or. level > first)
             attempt%converged = .false.
-            if (level > first .or. way < row_in_turn) &
+            if (level > first .or. way < from_fine) &
                 call solve_together(workspace, compliance, demand, asked, attempt, strips, result)
-            ! The last may be reached without those between.
-            if (.not. (attempt%converged .or. plan%is_auto) .and. level > first &
-                .and. level < plan%n) cycle
-            if (.not. attempt%converged .and. (level > first .or. way >= row_in_turn)) &
+            if (.not. attempt%converged .and. (level > first .or. way == from_fine)) &
                 call solve_in_turn(workspace, compliance, demand, asked, attempt, strips, result)
             if (.not. attempt%converged) return
             n_converged = plan%strips(level)
@@ -196,16 +187,6 @@ contains
             if (is_enough(workspace, compliance, strips, result, options%resolution_limit)) return
         end do
     end subroutine climb
-
-    !> The plan with few strips before.
-    pure type(plan_t) function with_few(plan)
-        type(plan_t), intent(in) :: plan
-
-        with_few = plan
-        with_few%n = plan%n + 1
-        with_few%strips(1) = min(few_strips, plan%strips(1))
-        with_few%strips(2:with_few%n) = plan%strips(:plan%n)
-    end function with_few
 
     !> The level that a solution is near enough to be the start of.
     pure integer function warm_level(plan, strips)
@@ -250,42 +231,42 @@ contains
             return
         end if
         strips = max(strips_per_patch, fewest_strips)
-        if (strips > most_at_once) then
-            plan%n = 1
-            plan%strips(1) = first_level
-            do while (level_factor*plan%strips(plan%n) + 1 < strips &
-                      .and. plan%n < most_levels - 2)
-                plan%n = plan%n + 1
-                plan%strips(plan%n) = level_factor*plan%strips(plan%n - 1) + 1
-            end do
-        end if
-        plan%n = plan%n + 1
-        plan%strips(plan%n) = strips
+        plan%n = 1
+        plan%strips(1) = min(strips, first_level)
+        do while (plan%strips(plan%n) < strips .and. plan%n < most_levels)
+            plan%n = plan%n + 1
+            plan%strips(plan%n) = min(strips, level_factor*plan%strips(plan%n - 1) + 1)
+        end do
     end function level_plan
 
-    !> The answer of a fixed lattice, for a gap whose ends did not converge.
-    subroutine fall_back(workspace, compliance, demand, strips_per_patch, strips, result, status)
-        type(strip_workspace_t), intent(inout) :: workspace
-        real(wp), intent(in) :: compliance
-        type(demand_t), intent(in) :: demand
-        integer, intent(in) :: strips_per_patch
+    !> The answer of the fine cells, for a gap whose ends did not converge.
+    subroutine take_cells(workspace, strips, result, status)
+        type(strip_workspace_t), intent(in) :: workspace
         type(contact_strips_t), intent(inout) :: strips
         type(normal_result_t), intent(inout) :: result
         type(status_t), intent(inout) :: status
 
-        real(wp) :: penetration
+        real(wp) :: correction
 
-        if (demand%by_load) then
-            call lattice_solve(workspace%lattice, workspace%curve, compliance, demand%load, &
-                               strips_per_patch, strips, penetration, status)
-        else
-            penetration = demand%penetration + workspace%curve%h_lowest
-            call lattice_solve_penetration(workspace%lattice, workspace%curve, compliance, &
-                                           penetration, strips_per_patch, strips, status)
-        end if
-        if (is_error(status)) return
-        call summarize(strips, penetration, 1.0_wp, result)
+        associate (cells => workspace%cells)
+            call check_depth(cells%depth, status)
+            if (is_error(status)) return
+            if (cells%n_ranges == 0) then
+                ! So little beside the heights that no number lies between.
+                call set_status(status, st_out_of_range, 'a contact beyond all proportion: ' // &
+                                'penetration ' // trim(number_text(cells%depth)) // ' mm')
+            else if (.not. cells%solved) then
+                call set_status(status, st_linear_algebra, &
+                                'the pressures of fixed cells have no solution')
+            end if
+            if (is_error(status)) return
+            call record_strips(cells, strips)
+            correction = correction_of(strips%y_left(:strips%n), strips%y_right(:strips%n))
+            call summarize(strips, workspace%curve%h_lowest + correction*cells%depth, correction, &
+                           result)
+        end associate
+        result%ends_are_held = .true.
         call set_status(status, st_fallback_used, &
-                        'the ends of the contact patches did not converge: fixed lattice used')
-    end subroutine fall_back
+                        'the ends of the contact patches did not converge: fixed cells used')
+    end subroutine take_cells
 end module faststrip_normal_strip_levels

@@ -5,7 +5,7 @@ module faststrip_normal_strip_state
     use faststrip_numerics_reversal, only: reverse, reverse_negated
     use faststrip_geometry_gap, only: gap_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, gap_at
-    use faststrip_normal_cells_lattice, only: lattice_workspace_t, reserve_lattice
+    use faststrip_normal_cells, only: cells_t, reserve_cells
     use faststrip_normal_strip_linearised, only: linearised_t, reserve_linearised
     use faststrip_normal_strip_grading, only: grade, grade_plainly
     use faststrip_normal_strip_patches, only: patches_t, max_patches, fewest_strips, only_match, &
@@ -50,7 +50,7 @@ module faststrip_normal_strip_state
         integer :: image_of = 0     !! the curve's version that this is the image of; 0: of none
         type(newton_workspace_t) :: newton
         type(linearised_t) :: linear  !! influence coefficients of the last warm solution
-        type(lattice_workspace_t) :: lattice
+        type(cells_t) :: cells      !! nothing of them is kept
         type(patches_t) :: old      !! the last patches that were solved
         real(wp) :: old_load = 0.0_wp        !! the load they carried, N
         real(wp) :: old_penetration = 0.0_wp !! and their corrected penetration above the lowest
@@ -88,8 +88,7 @@ contains
         if (is_error(status)) return
         call reserve_gap_curve(workspace%image, max_points, status)
         if (is_error(status)) return
-        call reserve_lattice(workspace%lattice, max_strips, status)
-        if (is_error(status)) return
+        call reserve_cells(workspace%cells)
         call reserve_newton(workspace%newton, max_strips)
         call reserve_linearised(workspace%linear, max_strips)
         if (workspace%max_strips >= max_strips) return

@@ -4,11 +4,11 @@
 !> strips of a patch always fill it: its two ends move until the squared strip length, extrapolated
 !> by a quadratic through the last three strips, vanishes at them. Strips and ends are solved for
 !> together (`faststrip_normal_strip_converge`), from the last solution or the shape of a Hertz
-!> contact; where that does not succeed, from the patches of a row of cells, together or in turn
+!> contact; where that does not succeed, from the patches of coarse cells, together or in turn
 !> (`faststrip_normal_strip_levels`, `faststrip_normal_strip_level`). A scan outside the patches
 !> finds gaps that the deformed surfaces have closed, which makes patches appear, grow or merge
 !> (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`). A gap whose ends do not
-!> converge, within a bounded work, gets the answer of `faststrip_normal_cells_lattice`.
+!> converge, within a bounded work, gets the answer of `faststrip_normal_cells_solve`.
 !>
 !> Of a gap and its mirror image one is solved and mirrored (in a history of warm starts the first
 !> gap decides): what is decided on the way, rounding included, is the same on a left and on a right
@@ -22,8 +22,6 @@ module faststrip_normal_strip
                                      st_overlap_left, st_more_strips, st_workspace_too_small, &
                                      st_no_convergence
     use faststrip_base_material, only: check_compliance
-    use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors
-    use faststrip_normal_cells_lattice, only: lattice_errors, lattice_errors_t
     use faststrip_normal_cells_overlap, only: named_overlap
     use faststrip_normal_limitations, only: check_curvature, check_depth, check_lowest, &
                                             name_limitations, name_steps
@@ -43,7 +41,7 @@ module faststrip_normal_strip
 
     public :: strip_options_t, strip_workspace_t
     public :: reserve_strip_workspace, set_strip_gap, strip_solve, strip_solve_penetration
-    public :: strip_solve_demand, estimate_strips
+    public :: strip_solve_demand
     public :: fewest_strips, strips_auto, strips_auto_most
 
     ! Tuned [1]: larger tolerances are refused. Origin: chosen.
@@ -58,7 +56,7 @@ contains
     !> `st_linear_algebra` (a contact beyond all proportion; fill values below the gap),
     !> `st_no_finite_patch` (a contact that is flat or hollow along x).
     !> Named limitations: `st_fallback_used`, the ends did not converge and
-    !> `faststrip_normal_cells_lattice` gave the answer; `st_more_strips`, three strips were used
+    !> cells gave the answer; `st_more_strips`, three strips were used
     !> where fewer were asked;
     !> `st_overlap_left`, in a rough gap the surfaces overlap beside the strips;
     !> `st_edge_of_data`, the contact runs to the end of the gap's points; `st_flat_along_x` and
@@ -151,7 +149,7 @@ contains
 
         character(len=message_length) :: words
         real(wp) :: penetration ! above the lowest height
-        integer :: n_converged    ! strips per patch that converged, 0: the lattice's answer
+        integer :: n_converged    ! strips per patch that converged, 0: the answer of cells
         logical :: all_converged, mirrored, found
 
         mirrored = workspace%curve%is_image
@@ -186,13 +184,11 @@ contains
         end if
         if (is_error(status) .or. options%stays) return
         penetration = result%penetration - workspace%curve%h_lowest
-        if (n_converged > 0) then
-            if (overlap_left(workspace%curve, compliance, penetration/result%correction, strips) &
-                > named_overlap) &
-                call add_limitation(status, st_overlap_left, 'surfaces overlap outside the ' &
-                                    //'patches by more than 1 % of the penetration: a rough gap, ' &
-                                    //'or one that is cut off')
-        end if
+        if (overlap_left(workspace%curve, compliance, penetration/result%correction, strips) &
+            > named_overlap) &
+            call add_limitation(status, st_overlap_left, 'surfaces overlap outside the patches ' &
+                                //'by more than 1 % of the penetration: a rough gap, or one ' &
+                                //'that is cut off')
         call name_limitations(workspace%curve, strips, status)
         if (.not. is_error(status)) &
             call name_steps(workspace%curve, penetration, strips, status)
@@ -241,28 +237,6 @@ contains
         result%y_min = -result%y_max
         result%y_max = -y_min
     end subroutine mirror_ends
-
-    !> Error estimates of the last solution of a workspace, and of the lattice that was fallen back
-    !> to. Nothing is allocated. Errors: those of `estimate_strip_errors`.
-    pure subroutine estimate_strips(workspace, compliance, strips, result, normal_errors, status)
-        type(strip_workspace_t), intent(in) :: workspace !! with the gap that was solved
-        real(wp), intent(in) :: compliance               !! H of eq. (4), 1/MPa
-        type(contact_strips_t), intent(in) :: strips     !! the solution
-        type(normal_result_t), intent(in) :: result      !! its figures
-        type(normal_errors_t), intent(out) :: normal_errors  !! residuals and estimated errors
-        type(status_t), intent(out) :: status            !! how it ended
-
-        type(lattice_errors_t) :: errors
-
-        call estimate_strip_errors(workspace%curve, compliance, strips, result, normal_errors, &
-                                   status)
-        if (is_error(status)) return
-        errors = lattice_errors(workspace%lattice)
-        if (.not. errors%is_known) return
-        normal_errors%est_err_penetration = errors%est_err_penetration
-        normal_errors%est_err_pmax = errors%est_err_pmax
-        normal_errors%est_err_area = errors%est_err_area
-    end subroutine estimate_strips
 
     subroutine check_input(workspace, compliance, options, strips, status)
         type(strip_workspace_t), intent(in) :: workspace
