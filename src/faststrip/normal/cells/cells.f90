@@ -8,7 +8,7 @@ module faststrip_normal_cells
     private
 
     public :: cells_t, reserve_cells, position_cells, start_lengths, next_run, record_strips
-    public :: max_ranges, most_cells, same
+    public :: max_ranges, most_cells
 
     ! Tuned [ranges]: Most ranges. Origin: capacity.
     integer, parameter :: max_ranges = 64

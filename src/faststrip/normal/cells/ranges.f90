@@ -40,18 +40,17 @@ contains
 
     !> The next ranges: the patches found, somewhat wider, and places where the
     !> surfaces overlap.
-    pure subroutine next_ranges(cells, curve, compliance, depth, grow, overlap)
+    pure subroutine next_ranges(cells, curve, compliance, grow, overlap)
         type(cells_t), intent(inout) :: cells !! with the pressures found; gets the ranges
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
-        real(wp), intent(in) :: depth          !! penetration above the lowest height, mm
         real(wp), intent(in) :: grow           !! each way, in cells
         real(wp), intent(out) :: overlap       !! deepest outside the patches, of the penetration
 
         type(ranges_t) :: ranges
 
         call take_patches(cells, curve, grow, ranges)
-        call add_overlaps(cells, curve, compliance, depth, ranges, overlap)
+        call add_overlaps(cells, curve, compliance, ranges, overlap)
         call sort_ranges(ranges)
         call join_ranges(ranges, cells)
     end subroutine next_ranges

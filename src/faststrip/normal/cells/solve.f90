@@ -64,7 +64,7 @@ contains
             call balance_cells(cells, compliance, demand, &
                                merge(length_steps, first_steps, are_fine .and. is_last))
             if (.not. cells%solved .or. set == max_sets .or. is_last .and. .not. are_fine) return
-            call next_ranges(cells, curve, compliance, cells%depth, &
+            call next_ranges(cells, curve, compliance, &
                              merge(first_growth, growth, set == 1), overlap)
             if (is_last .and. overlap < overlap_tolerance &
                 .and. 2*count(cells%presses(:cells%n)) >= cells%n) return

@@ -2,10 +2,9 @@
 !> that the deformed surfaces have closed join in.
 module faststrip_normal_strip_ends
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_influence_closed, only: strip_influence_edges
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_slopes, level_intervals, &
                                            valley_below
-    use faststrip_normal_cells_overlap, only: overlap_tolerance
+    use faststrip_normal_cells_overlap, only: overlap_tolerance, overlap_depth
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
                                               take_in, sort_patches, join_met_patches
@@ -375,39 +374,4 @@ contains
                               strips%y_right(:n), strips%p0(:n), strips%half_length(:n), y)
     end function overlap_outside
 
-    !> By how much the deformed surfaces overlap at a point outside the patches, mm; negative where
-    !> they are apart, at least by that.
-    pure real(wp) function overlap_depth(curve, compliance, penetration, y_left, y_right, p0, &
-                                         half_length, y) result(depth)
-        type(gap_curve_t), intent(in) :: curve
-        real(wp), intent(in) :: compliance, penetration, y_left(:), y_right(:), p0(:), &
-                                half_length(:), y
-
-        real(wp) :: h, inv2r, undeformed, displacement, least, width, middle
-        integer :: s
-
-        call gap_at(curve, y, h, inv2r)
-        undeformed = penetration - (h - curve%h_lowest)
-        depth = undeformed
-        if (depth <= 0.0_wp) return
-        ! Mostly a bound tells that there is no overlap: the mean of 1/r is not less than
-        ! 1/sqrt(mean of r^2) (Jensen), and the mean of x^2 is xd^2/4, that of a width w^2/12.
-        least = 0.0_wp
-        do s = 1, size(p0)
-            width = y_right(s) - y_left(s)
-            middle = 0.5_wp*(y_left(s) + y_right(s)) - y
-            ! Given: moment of a width
-            least = least + p0(s)*half_length(s)*width &
-                    /sqrt(0.25_wp*half_length(s)**2 + middle**2 + width**2/12.0_wp)
-        end do
-        depth = undeformed - 0.5_wp*pi*compliance*least
-        if (depth <= 0.0_wp) return
-        displacement = 0.0_wp
-        do s = 1, size(p0)
-            displacement = displacement + compliance*p0(s)*half_length(s) &
-                           *strip_influence_edges((y_left(s) - y)/half_length(s), &
-                                                  (y_right(s) - y)/half_length(s))
-        end do
-        depth = undeformed - displacement
-    end function overlap_depth
 end module faststrip_normal_strip_ends
