@@ -39,7 +39,7 @@ extern "C" {
 /* How a call ended: 0, a result with a limitation, or, from 100 on, an error. */
 enum faststrip_status {
     FASTSTRIP_OK = 0,            /* all is well */
-    FASTSTRIP_FALLBACK_USED = 1, /* a fixed lattice gave the answer: patch ends did not settle */
+    FASTSTRIP_FALLBACK_USED = 1, /* fixed cells gave the answer: patch ends did not settle */
     FASTSTRIP_EDGE_OF_DATA = 2,  /* the contact runs to the end of the gap's points */
     FASTSTRIP_FEWER_STRIPS = 3,  /* more strips did not settle */
     FASTSTRIP_OVERLAP_LEFT = 4,  /* a rough gap's valleys overlap beside the patches */

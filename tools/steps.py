@@ -959,7 +959,7 @@ def clean(what=""):
 
 
 # Modules of the rooms that take some seconds each, which `test --quick` leaves out.
-QUICK_WITHOUT = ("normal/test_lattice_invariance", "tangential/test_sub_patch_forces")
+QUICK_WITHOUT = ("normal/test_cells_invariance", "tangential/test_sub_patch_forces")
 # What it runs of the interfaces: command line, Fortran, F77, C and Python.
 QUICK = tuple(f"test/{name}.py" for name in (
     "cli/test_auto", "cli/test_bad_input", "cli/test_batch", "cli/test_columns",

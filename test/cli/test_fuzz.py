@@ -57,10 +57,10 @@ class Fuzz(LabTest):
                     self.assertGreater(float(row["pmax_MPa"]), 0.0, row)
                     self.assertGreaterEqual(float(row["centre"]), 0.0, row)
 
-    def test_the_lattice_closes_the_gap(self):
+    def test_cells_close_the_gap(self):
         for family in ("slender", "offset", "worn"):
             with self.subTest(family):
-                self.run_program("fuzz", "--cases", 200, "--first", 2001, "--solver", "lattice",
+                self.run_program("fuzz", "--cases", 200, "--first", 2001, "--solver", "cells",
                                  "--family", family, "-o", "cases.csv")
                 for row in self.read("cases.csv"):
                     broken = FORM | {"answer", "depth", "centre", "tip", "middle", "outside"}

@@ -338,8 +338,8 @@ class FromNothing(Building):
         made, = (self.folder / "app" / "build").rglob("*_kinds.f90.o")
         made.write_bytes(made.read_bytes() + b"marked")
         self.write("test/cli/test_contact.py", PYTHON)
-        self.write("test/pf/normal/test_lattice_invariance.pf",
-                   module("test_lattice_invariance", FAILING))
+        self.write("test/pf/normal/test_cells_invariance.pf",
+                   module("test_cells_invariance", FAILING))
         self.check(PASSING, 0, "3 passed, 0 failed", "--quick")
         copied, = (self.folder / "test" / "build").rglob("*_kinds.f90.o")
         self.assertEqual(copied.read_bytes(), made.read_bytes())

@@ -245,7 +245,7 @@ def runner_text(translations):
 
 
 # They run first, so that no process is left alone with one of them at the end.
-LONGEST = ("test_lattice_invariance", "test_sub_patch_forces")
+LONGEST = ("test_cells_invariance", "test_sub_patch_forces")
 
 
 def translate_all(source):

@@ -9,7 +9,7 @@ tools/check/run_mutants.py), and these are run with the change and without:
 
     bench accuracy          20 contacts of the reference against CONTACT, 15 strips and auto
     bench forces            all tangential methods on 441 contacts
-    fuzz --cases 60         random gaps by strips, and 20 by the lattice alone
+    fuzz --cases 60         random gaps by strips, and 20 by cells alone
     sweep --normal norm     20 contacts by kalker_normal and kalker_tangential, coarse
 
 Columns: file, name, value; for `half` and `double` each: `outcome` (ok, does not compile, fails),
@@ -59,7 +59,7 @@ RUNS = {
     "accuracy": "bin/faststrip-lab bench accuracy -o {}",
     "forces": "bin/faststrip-lab bench forces -o {}",
     "random": "bin/faststrip-lab fuzz --cases 60 -o {}",
-    "lattice": "bin/faststrip-lab fuzz --cases 20 --solver lattice -o {}",
+    "cells": "bin/faststrip-lab fuzz --cases 20 --solver cells -o {}",
     "kalker": "bin/faststrip sweep example/s1002_uic60.nml --normal norm --tangential tang"
               " --element-dx 0.8 --element-dy 0.8 -o {}",
 }
@@ -273,7 +273,7 @@ def mean_size(rows, column):
 
 
 def iterations(tables):
-    return sum(number(row["iterations"]) or 0.0 for row in tables["random"] + tables["lattice"])
+    return sum(number(row["iterations"]) or 0.0 for row in tables["random"] + tables["cells"])
 
 
 def compare(plain, results):
@@ -292,7 +292,7 @@ def compare(plain, results):
                  if number(a[name]) is not None and number(b[name]) is not None), default=0.0)
     own = [row for row in results["forces"]
            if row["method"] == "faststrip" and number(row["force_err"]) is not None]
-    random = [pair for name in ("random", "lattice") for pair in zip(plain[name], results[name])]
+    random = [pair for name in ("random", "cells") for pair in zip(plain[name], results[name])]
     sizes = ("penetration_mm", "pmax_MPa", "area_mm2")
     kalker = [(a, b) for a, b in zip(plain["kalker"], results["kalker"]) if a["normal"] == "norm"]
     values = {

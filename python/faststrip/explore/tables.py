@@ -48,7 +48,7 @@ CONTACT_ROWS = (("status", "", "word", 1.0, ""),
 CELL = "padding:0 8px 0 0;text-align:right;white-space:nowrap"
 WORDS = {
     "ok": "ok: the estimated errors are small",
-    "fallback_used": "a fixed lattice gave the answer: the ends of the patch did not converge",
+    "fallback_used": "fixed cells gave the answer: the ends of the patch did not converge",
     "edge_of_data": "the contact runs to the end of the profiles",
     "fewer_strips": "more strips did not converge",
     "overlap_left": "valleys overlap beside the patches",

@@ -155,7 +155,7 @@ contains
     end subroutine lift_wheel
 
     !> A force that jumps over the load, as where a rough profile is answered now by strips, now by
-    !> the lattice.
+    !> fixed cells.
     subroutine name_jump(search, status)
         type(approach_search_t), intent(in) :: search !! that found no load
         type(status_t), intent(out) :: status         !! `st_target_missed`, `st_no_convergence`

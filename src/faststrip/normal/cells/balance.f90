@@ -30,18 +30,16 @@ module faststrip_normal_cells_balance
 
 contains
 
-    !> Find them.
+    !> Find them. Nothing is allocated.
     pure subroutine balance_cells(cells, compliance, demand, steps)
         type(cells_t), intent(inout) :: cells !! positioned, with a guess of their depth
         real(wp), intent(in) :: compliance    !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand  !! load, or penetration above the lowest height
         integer, intent(in) :: steps          !! of the lengths, at most
 
-        real(wp) :: unit
         integer :: step, j, n
 
         n = cells%n
-        unit = cells%depth
         call start_lengths(cells)
         cells%presses(:n) = .true.
         do step = 1, steps
@@ -51,7 +49,7 @@ contains
                     call center_influence_column(length(j), cells%y_left(j), cells%y_right(j), &
                                                  cells%y(:n), cells%influence(:n, j))
                 end do
-                call find_pressing(cells, compliance, demand, unit)
+                call find_pressing(cells, compliance, demand)
                 if (.not. cells%solved .or. step == steps) exit
                 call close_tips(cells, compliance)
                 if (all(abs(cells%length(:n) - length) <= length_tolerance*length &
@@ -62,11 +60,10 @@ contains
     end subroutine balance_cells
 
     !> Which cells press, and with what pressures.
-    pure subroutine find_pressing(cells, compliance, demand, unit)
+    pure subroutine find_pressing(cells, compliance, demand)
         type(cells_t), intent(inout) :: cells
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
-        real(wp), intent(in) :: unit      ! of the heights, mm
 
         real(wp) :: carried
         integer :: rounds, tries, infeasible, fewest, first, i, k, n
@@ -75,8 +72,9 @@ contains
         fewest = n + 1
         tries = 0
         do rounds = 1, max_rounds
-            if (.not. any(cells%presses(:n))) cells%presses(minloc(cells%height(:n), dim=1)) = .true.
-            call solve_pressing(cells, compliance, demand, unit)
+            if (.not. any(cells%presses(:n))) &
+                cells%presses(minloc(cells%height(:n), dim=1)) = .true.
+            call solve_pressing(cells, compliance, demand)
             if (.not. cells%solved) return
             call find_infeasible(cells, compliance, infeasible)
             if (infeasible == 0) exit
@@ -125,9 +123,9 @@ contains
     end subroutine find_infeasible
 
     !> What the cells that are said to press carry if they all do, of any sign.
-    pure subroutine solve_pressing(cells, compliance, demand, unit)
+    pure subroutine solve_pressing(cells, compliance, demand)
         type(cells_t), intent(inout) :: cells
-        real(wp), intent(in) :: compliance, unit
+        real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
 
         real(wp) :: carried(2), scale
@@ -143,12 +141,12 @@ contains
             cells%edges(m, :) = [cells%y_left(j), cells%y_right(j)]
         end do
         scale = cells%influence(cells%at(1), cells%at(1))
-        ! Pressures by a depth of one, and by the heights over their unit.
+        ! What a depth of one asks for, and what the heights take from it.
         do j = 1, m
             do k = 1, m
                 cells%matrix(k, j) = cells%influence(cells%at(k), cells%at(j))/scale
             end do
-            cells%column(j, :) = [1.0_wp, cells%height(cells%at(j))/unit]/scale
+            cells%column(j, :) = [1.0_wp, cells%height(cells%at(j))]/scale
         end do
         call lu_factor(m, cells%matrix, cells%pivot, singular)
         cells%solved = .not. singular
@@ -160,12 +158,13 @@ contains
             do j = 1, m
                 carried = carried + load_per_pressure(cells, cells%at(j))*cells%column(j, :)
             end do
-            cells%depth = (compliance*demand%load + unit*carried(2))/carried(1)
+            cells%depth = (compliance*demand%load + carried(2))/carried(1)
         else
             cells%depth = demand%penetration/correction_of(cells%edges(:m, 1), cells%edges(:m, 2))
         end if
         do j = 1, m
-            cells%p0(cells%at(j)) = (cells%depth*cells%column(j, 1) - unit*cells%column(j, 2))/compliance
+            cells%p0(cells%at(j)) = (cells%depth*cells%column(j, 1) - cells%column(j, 2)) &
+                                    /compliance
         end do
     end subroutine solve_pressing
 
@@ -199,8 +198,8 @@ contains
             least = minval(length, mask=cells%presses(:n))
             do k = 1, n
                 if (cells%presses(k)) then
-                    cells%length(k) = sqrt(max(cells%depth - cells%height(k) - displaced(k), 0.0_wp) &
-                                           /cells%inv2r(k))
+                    cells%length(k) = sqrt(max(cells%depth - cells%height(k) - displaced(k), &
+                                               0.0_wp)/cells%inv2r(k))
                     cells%length(k) = min(max(cells%length(k), length(k)/length_step), &
                                           length(k)*length_step)
                 else

@@ -187,8 +187,9 @@ contains
 
         do k = 1, cells%n
             if (cells%n_old == 0) then
-                cells%half_length(k) = first_share*sqrt(max(cells%depth - cells%height(k), &
-                                                            least_overlap*cells%depth)/cells%inv2r(k))
+                cells%half_length(k) = first_share &
+                                       *sqrt(max(cells%depth - cells%height(k), &
+                                                 least_overlap*cells%depth)/cells%inv2r(k))
                 cycle
             end if
             i = count(cells%old_y(:cells%n_old) <= cells%y(k))

@@ -1,9 +1,9 @@
 !> Normal contact by cells: strips whose edges stay where they are. Coarse ones find the patches of
 !> gaps whose strips and ends do not converge; fine ones do so again, or are the answer.
 !>
-!> The first cells lie where the undeformed gap is below a penetration, the next ones over the
-!> patches of those before and over places where the deformed surfaces overlap: three sets, and up
-!> to two more of an answer. An end lies in its cell; else cells are as exact as even strips.
+!> The first cells lie where the undeformed gap is below a penetration. Where that was far too
+!> small the next ones do so again, else they lie over the patches of those before and over valleys where the
+!> deformed surfaces overlap: three sets, and up to two more of an answer. An end lies in its cell; else cells are as exact as even strips.
 module faststrip_normal_cells_solve
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t
@@ -46,7 +46,7 @@ contains
         real(wp), intent(in) :: depth          !! a guess of the depth, mm
 
         real(wp) :: overlap
-        integer :: set, most
+        integer :: set, most, across
         logical :: is_last
 
         most = most_coarse
@@ -57,15 +57,18 @@ contains
         cells%solved = cells%n_ranges > 0
         if (.not. cells%solved) return
         do set = 1, max_sets
-            call position_cells(cells, curve, &
-                                min(most, merge(fine_cells, coarse_cells, are_fine .and. set > 1)), &
-                                most)
+            across = merge(fine_cells, coarse_cells, are_fine .and. set > 1)
+            call position_cells(cells, curve, min(most, across), most)
             is_last = set >= fewest_sets
             call balance_cells(cells, compliance, demand, &
                                merge(length_steps, first_steps, are_fine .and. is_last))
             if (.not. cells%solved .or. set == max_sets .or. is_last .and. .not. are_fine) return
-            call next_ranges(cells, curve, compliance, &
-                             merge(first_growth, growth, set == 1), overlap)
+            if (set == 1 .and. 0.5_wp*cells%depth > depth) then
+                call first_ranges(cells, curve, cells%depth)
+                cycle
+            end if
+            call next_ranges(cells, curve, compliance, merge(first_growth, growth, set == 1), &
+                             overlap)
             if (is_last .and. overlap < overlap_tolerance &
                 .and. 2*count(cells%presses(:cells%n)) >= cells%n) return
         end do

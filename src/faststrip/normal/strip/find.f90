@@ -75,7 +75,8 @@ contains
                         strips%half_length(n) = cells%half_length(k)
                     end do
                 end do
-                patches%at(patches%n)%y_from = cells%y_left(first) - end_move(cells, first, first + 1)
+                patches%at(patches%n)%y_from = cells%y_left(first) &
+                                               - end_move(cells, first, first + 1)
                 patches%at(patches%n)%y_to = cells%y_right(last) + end_move(cells, last, last - 1)
             end do
             strips%n = n

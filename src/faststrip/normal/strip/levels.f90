@@ -2,8 +2,8 @@
 !>
 !> Strips and ends together, from the last solution or from the level set of a Hertz ellipse; where
 !> that does not converge, from the patches of coarse cells; then from those of fine cells, in turn.
-!> More than 15 strips are reached by way of 15, 31 and so on. A gap whose ends do not converge, within a
-!> bounded work, gets the answer of the fine cells.
+!> More than 15 strips are reached by way of 15, 31 and so on. A gap whose ends do not converge,
+!> within a bounded work, gets the answer of the fine cells.
 module faststrip_normal_strip_levels
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, is_error, number_text, &
@@ -170,17 +170,24 @@ contains
         integer, intent(inout) :: n_converged ! strips of the last level that converged
 
         type(level_t) :: asked
+        type(attempt_t) :: in_turn
         integer :: first
 
         first = level
         do level = first, plan%n
             asked = level_t(plan%strips(level), maxval(plan%strips(:plan%n)), options%tolerance, &
-                            way /= from_level .or. level > first)
+                            way == from_last .or. level > first)
             attempt%converged = .false.
             if (level > first .or. way < from_fine) &
                 call solve_together(workspace, compliance, demand, asked, attempt, strips, result)
-            if (.not. attempt%converged .and. (level > first .or. way == from_fine)) &
+            if (.not. attempt%converged .and. (level > first .or. way == from_fine)) then
                 call solve_in_turn(workspace, compliance, demand, asked, attempt, strips, result)
+                if (.not. attempt%converged) return
+                ! From there edges may follow the gap.
+                in_turn = attempt
+                call solve_together(workspace, compliance, demand, asked, attempt, strips, result)
+                if (.not. attempt%converged) attempt = in_turn
+            end if
             if (.not. attempt%converged) return
             n_converged = plan%strips(level)
             if (.not. plan%is_auto) cycle
