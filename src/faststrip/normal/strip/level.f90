@@ -144,13 +144,7 @@ contains
                     best%patches = solved
                     call keep(workspace, best, strips, result)
                 end if
-                if (at_rest .or. moved < end_tolerance) then
-                    ! From here both together mostly find the solution itself.
-                    call couple(workspace, compliance, demand, level, attempt, strips, result, &
-                                changed)
-                    if (attempt%converged) best = attempt
-                    exit
-                end if
+                if (at_rest .or. moved < end_tolerance) exit
             end if
             at_rest = moved < end_tolerance
             tolerance = next_tolerance(level%tolerance, pass, moved)
