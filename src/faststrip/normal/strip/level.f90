@@ -104,17 +104,16 @@ contains
         type(patches_t) :: solved
         real(wp) :: tolerance, moved, best_move
         integer :: pass, best_pass, outcome
-        logical :: at_rest, possible, changed
+        logical :: possible, changed
 
         call begin(level, attempt)
         ! Ends that are moved in turn come and go with edges that follow the gap.
         call forget_edges(workspace, .false.)
         tolerance = max(merge(near_tolerance, far_tolerance, level%near), level%tolerance)
-        at_rest = .false.
-        best_move = huge(1.0_wp)
+        best_move = loose_end_tolerance
         best_pass = 0
         do pass = 1, max_passes
-            if (best_move <= loose_end_tolerance .and. pass > best_pass + max_idle_passes) exit
+            if (best_pass > 0 .and. pass > best_pass + max_idle_passes) exit
             call position(workspace, level, size(strips%p0), result%cost, attempt, possible)
             if (.not. possible) exit
             call converge(workspace, compliance, demand, tolerance, .true., attempt%patches, &
@@ -132,7 +131,6 @@ contains
             call move_ends(workspace, pass, attempt%patches, moved)
             call join_overlaps(workspace, compliance, level, attempt, changed)
             if (changed) then
-                at_rest = .false.
                 tolerance = max(far_tolerance, level%tolerance)
                 cycle
             end if
@@ -144,12 +142,11 @@ contains
                     best%patches = solved
                     call keep(workspace, best, strips, result)
                 end if
-                if (at_rest .or. moved < end_tolerance) exit
+                if (moved < end_tolerance) exit
             end if
-            at_rest = moved < end_tolerance
             tolerance = next_tolerance(level%tolerance, pass, moved)
         end do
-        attempt%converged = best_move <= loose_end_tolerance
+        attempt%converged = best_pass > 0
         ! More strips start from where the ends were going.
         if (.not. attempt%converged .or. level%strips_per_patch < level%most_strips) return
         ! Passes after the best have left other patches.
