@@ -1,9 +1,10 @@
 !> Normal contact by cells: strips whose edges stay where they are. Coarse ones find the patches of
 !> gaps whose strips and ends do not converge; fine ones do so again, or are the answer.
 !>
-!> The first cells lie where the undeformed gap is below a penetration. Where that was far too
-!> small the next ones do so again, else they lie over the patches of those before and over valleys where the
-!> deformed surfaces overlap: three sets, and up to two more of an answer. An end lies in its cell; else cells are as exact as even strips.
+!> The first cells lie where the undeformed gap is below a penetration. Where that was far too small
+!> the next ones do so again, else they lie over the patches of those before and over valleys where
+!> the deformed surfaces overlap: three sets, and up to two more of an answer. An end lies in its
+!> cell; else cells are as exact as even strips.
 module faststrip_normal_cells_solve
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t
