@@ -25,13 +25,8 @@ module faststrip_normal_strip_ends
     ! Tuned [1]: Part of a step that an end is moved from then on. Origin: chosen against ends that
     ! swing.
     real(wp), parameter :: damping = 0.6_wp
-    ! Tuned [strip widths]. Origin: chosen.
-    real(wp), parameter :: forget = 0.05_wp  ! how fast "too far" is forgotten, strip widths
     ! Tuned [1]. Origin: a round contact between plane strain and a needle.
     real(wp), parameter :: plane_strain_share = 0.6_wp ! pressure of a new patch over a long one's
-    ! Tuned [doublings]: most of the step that an end may take towards "too far". Origin: safeguard:
-    ! powers of two cannot overflow.
-    integer, parameter :: most_pushes = 20
 
 contains
 
@@ -61,8 +56,8 @@ contains
                     width = end_width(workspace, first)
                     step = factor*end_step(workspace, first, 1)*width
                     step = min(step, patch%y_from - y_low)
-                    call hold_back(width, patch%y_from - patch%too_far_from, patch%pushes_from, &
-                                   step)
+                    ! Half-way at most to a place that was too far out.
+                    step = min(step, 0.5_wp*(patch%y_from - patch%too_far_from))
                     patch%y_from = patch%y_from - step
                     move = max(move, abs(step)/width)
                 end if
@@ -74,7 +69,7 @@ contains
                 width = end_width(workspace, last)
                 step = factor*end_step(workspace, last, -1)*width
                 step = min(step, y_high - patch%y_to)
-                call hold_back(width, patch%too_far_to - patch%y_to, patch%pushes_to, step)
+                step = min(step, 0.5_wp*(patch%too_far_to - patch%y_to))
                 patch%y_to = patch%y_to + step
                 move = max(move, abs(step)/width)
             end associate
@@ -109,22 +104,6 @@ contains
             move = max(move, abs(to)/width_to, abs(from)/width_from)
         end if
     end subroutine move_shared_end
-
-    !> Keep an end from a place that was too far out, half-way at most. The more often it pushes on,
-    !> the less the place counts: everything else may have moved since.
-    pure subroutine hold_back(width, space, pushes, step)
-        real(wp), intent(in) :: width    ! of the end strip, mm
-        real(wp), intent(in) :: space     ! from the end to the place that was too far, mm
-        integer, intent(inout) :: pushes ! how often the end has pushed against it
-        real(wp), intent(inout) :: step  ! how far the end moves out, mm
-
-        real(wp) :: most
-
-        most = 0.5_wp*space + forget*width*(2.0_wp**pushes - 1.0_wp)
-        if (step <= most) return
-        step = most
-        pushes = min(pushes + 1, most_pushes)
-    end subroutine hold_back
 
     !> The measure of an end's moves, mm: the width of the end strip.
     pure real(wp) function end_width(workspace, k) result(width)

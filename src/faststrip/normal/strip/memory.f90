@@ -55,8 +55,6 @@ contains
         call exchange(stream, patch%seed_level)
         call exchange(stream, patch%too_far_from)
         call exchange(stream, patch%too_far_to)
-        call exchange(stream, patch%pushes_from)
-        call exchange(stream, patch%pushes_to)
         call exchange(stream, patch%meets_next)
     end subroutine exchange_patch
 

@@ -37,7 +37,6 @@ module faststrip_normal_strip_patches
         real(wp) :: seed_length = 0.0_wp, seed_pressure = 0.0_wp, seed_level = 0.0_wp
         ! Ends at which strips left: the true ends lie further in.
         real(wp) :: too_far_from = -beyond_all, too_far_to = beyond_all
-        integer :: pushes_from = 0, pushes_to = 0
         logical :: meets_next = .false. ! is its right end the left end of the next one?
     end type patch_t
 
@@ -217,7 +216,6 @@ contains
             if (patches%at(p)%y_from - patches%at(n)%y_to < clearance .and. may_merge) then
                 patches%at(n)%y_to = max(patches%at(n)%y_to, patches%at(p)%y_to)
                 patches%at(n)%too_far_to = patches%at(p)%too_far_to
-                patches%at(n)%pushes_to = patches%at(p)%pushes_to
                 patches%at(n)%n_strips = patches%at(n)%n_strips + patches%at(p)%n_strips
                 changed = .true.
             else
@@ -273,11 +271,9 @@ contains
                     cut%at(cut%n)%meets_next = patches%at(p)%meets_next .and. i > last
                     if (from > first) then
                         cut%at(cut%n)%too_far_from = patches%at(p)%y_from
-                        cut%at(cut%n)%pushes_from = 0
                     end if
                     if (i <= last) then
                         cut%at(cut%n)%too_far_to = patches%at(p)%y_to
-                        cut%at(cut%n)%pushes_to = 0
                     end if
                 end if
                 from = 0
@@ -308,7 +304,6 @@ contains
                                .or. count(origin(:cut%n) == origin(p)) > 1)) then
                         given%at(n)%y_to = cut%at(p)%y_to
                         given%at(n)%too_far_to = cut%at(p)%too_far_to
-                        given%at(n)%pushes_to = cut%at(p)%pushes_to
                         given%at(n)%n_strips = given%at(n)%n_strips + cut%at(p)%n_strips
                         given%at(n)%meets_next = cut%at(p)%meets_next
                         before = origin(p)
@@ -330,8 +325,6 @@ contains
 
         patches%at%too_far_from = -beyond_all
         patches%at%too_far_to = beyond_all
-        patches%at%pushes_from = 0
-        patches%at%pushes_to = 0
     end subroutine free_ends
 
     !> Mirror patches, y to -y.
@@ -349,8 +342,6 @@ contains
                 to%y_to = -from%y_from
                 to%too_far_from = -from%too_far_to
                 to%too_far_to = -from%too_far_from
-                to%pushes_from = from%pushes_to
-                to%pushes_to = from%pushes_from
                 to%meets_next = .false.
                 if (p < patches%n) to%meets_next = seen%at(patches%n - p)%meets_next
             end associate
