@@ -151,7 +151,7 @@ contains
         if (check == check_wall .and. word /= 'more_strips') allowance = free
         select case (word)
         case ('fallback_used')
-            if (check == check_tip) allowance = 1.0e4_wp
+            if (check == check_tip) allowance = 1.0e3_wp
             if (check == check_centre) allowance = 10.0_wp
             if (check == check_middle .or. check == check_monotone) allowance = 3.0_wp
             if (any(check == of_norm)) allowance = 3.0_wp

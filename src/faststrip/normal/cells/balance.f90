@@ -54,6 +54,8 @@ contains
                 call close_tips(cells, compliance)
                 if (all(abs(cells%length(:n) - length) <= length_tolerance*length &
                         .or. .not. cells%presses(:n))) exit
+                ! What has not come to rest by then goes back and forth.
+                if (2*step > steps) cells%length(:n) = sqrt(length*cells%length(:n))
                 length = cells%length(:n)
             end associate
         end do

@@ -1,13 +1,13 @@
 !> Where the deformed surfaces overlap outside what presses.
 module faststrip_normal_cells_overlap
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, valley_below
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_slopes, level_intervals
     use faststrip_influence_closed, only: strip_influence_edges
-    use faststrip_normal_cells, only: cells_t, max_ranges
     implicit none
     private
 
-    public :: ranges_t, add_overlaps, overlap_depth, overlap_tolerance, named_overlap
+    public :: overlap_t, most_overlaps, find_overlaps, stays_apart, overlap_depth
+    public :: overlap_tolerance, named_overlap
 
     !> Overlaps that are left, over the penetration: of cells as of strips.
     !> Tuned [1]. Origin: far below the errors of 15 strips.
@@ -16,45 +16,115 @@ module faststrip_normal_cells_overlap
     !> Tuned [1]. Origin: chosen.
     real(wp), parameter :: named_overlap = 0.01_wp
 
-    !> Ranges of y: patches, and overlaps between them.
-    type :: ranges_t
-        integer :: n = 0 !! how many
-        real(wp) :: from(2*max_ranges) = 0.0_wp, to(2*max_ranges) = 0.0_wp !! ends, mm
-    end type ranges_t
+    ! Tuned [points]. Origin: capacity.
+    integer, parameter :: max_scan = 64 ! points scanned in one stretch outside the patches
+    !> Most overlaps that are found at a time.
+    !> Tuned [overlaps]. Origin: capacity.
+    integer, parameter :: most_overlaps = 64
+
+    !> A place outside the patches where the surfaces overlap.
+    type :: overlap_t
+        real(wp) :: from = 0.0_wp, to = 0.0_wp  !! its ends, mm
+        real(wp) :: deepest = 0.0_wp            !! mm; 0: none
+        real(wp) :: low = 0.0_wp, high = 0.0_wp !! ends of the stretch it lies in, mm
+        real(wp) :: step = 0.0_wp               !! distance of the places looked at, mm
+    end type overlap_t
 
 contains
 
-    !> Add a range at each valley of the gap in which the surfaces overlap.
-    pure subroutine add_overlaps(cells, curve, compliance, ranges, overlap)
-        type(cells_t), intent(in) :: cells      !! with the pressures found
-        type(gap_curve_t), intent(in) :: curve  !! a gap that was set
-        real(wp), intent(in) :: compliance      !! H of eq. (4), 1/MPa
-        type(ranges_t), intent(inout) :: ranges !! of the patches, in the order of y
-        real(wp), intent(out) :: overlap        !! the deepest, over the penetration
+    !> Find places outside the patches where the deformed surfaces overlap.
+    pure subroutine find_overlaps(curve, compliance, depth, y_left, y_right, p0, half_length, &
+                                  from, to, width, found)
+        type(gap_curve_t), intent(in) :: curve        !! a gap that was set
+        real(wp), intent(in) :: compliance            !! H of eq. (4), 1/MPa
+        real(wp), intent(in) :: depth                 !! above the lowest height, mm
+        real(wp), intent(in) :: y_left(:), y_right(:) !! edges of strips, (n), mm
+        real(wp), intent(in) :: p0(:), half_length(:) !! their pressures, MPa, and lengths, mm, (n)
+        real(wp), intent(in) :: from(:), to(:)        !! ends of the patches, (m), mm
+        real(wp), intent(in) :: width                 !! of a strip: two places are looked at in it
+        type(overlap_t), intent(out) :: found(:)      !! those found, then ones of no depth
 
-        real(wp) :: depth, width, y
-        integer :: j, n_patches
+        real(wp) :: y_from(most_overlaps), y_to(most_overlaps), low
+        integer :: i, m, n, p
 
-        overlap = 0.0_wp
-        n_patches = ranges%n
-        width = minval(cells%y_right(:cells%n) - cells%y_left(:cells%n))
-        j = 1
-        do
-            j = valley_below(curve, curve%h_lowest + cells%depth, j + 1)
-            if (j > curve%n_pieces .or. ranges%n == size(ranges%from)) return
-            y = curve%y_node(j)
-            if (any(ranges%from(:n_patches) <= y .and. ranges%to(:n_patches) >= y)) cycle
-            associate (n => cells%n)
-                depth = overlap_depth(curve, compliance, cells%depth, cells%y_left(:n), &
-                                      cells%y_right(:n), cells%p0(:n), cells%half_length(:n), y)
-            end associate
-            if (depth <= overlap_tolerance*cells%depth) cycle
-            overlap = max(overlap, depth/cells%depth)
-            ranges%n = ranges%n + 1
-            ranges%from(ranges%n) = max(curve%y(1), y - 0.5_wp*width)
-            ranges%to(ranges%n) = min(curve%y(curve%n), y + 0.5_wp*width)
+        n = 0
+        call level_intervals(curve, curve%h_lowest + depth, y_from, y_to, m)
+        do i = 1, m
+            low = y_from(i)
+            do p = 1, size(from)
+                if (to(p) <= low .or. from(p) >= y_to(i)) cycle
+                if (from(p) > low) call scan(low, from(p), -1, found, n)
+                low = max(low, to(p))
+            end do
+            if (y_to(i) > low) call scan(low, y_to(i), &
+                                               merge(1, 0, low > y_from(i)), found, n)
         end do
-    end subroutine add_overlaps
+
+    contains
+
+        !> One stretch.
+        pure subroutine scan(low, high, way, found, n)
+            real(wp), intent(in) :: low, high ! its ends, mm
+            integer, intent(in) :: way ! from the patch beside it: 1 to the right, -1 to the left;
+                                       ! 0: there is none
+            type(overlap_t), intent(inout) :: found(:)
+            integer, intent(inout) :: n ! how many so far
+
+            real(wp) :: dy, deep(max_scan + 1)
+            integer :: k, j, places
+            logical :: is_deep, was_deep
+
+            ! A quarter less: a stretch often is a whole number of cells, and rounding would count.
+            places = max(2, min(max_scan, ceiling(2.0_wp*(high - low)/width - 0.25_wp)))
+            dy = (high - low)/places
+            deep(:places + 1) = 0.0_wp
+            was_deep = way /= 0
+            do k = 1, places
+                j = merge(k, places + 1 - k, way >= 0)
+                associate (y => low + (j - 0.5_wp)*dy)
+                    deep(j) = overlap_depth(curve, compliance, depth, y_left, y_right, p0, &
+                                            half_length, y)
+                    if (was_deep .and. deep(j) <= 0.0_wp) then
+                        if (stays_apart(curve, y, way*dy, places - k)) exit
+                    end if
+                end associate
+                was_deep = deep(j) > 0.0_wp
+            end do
+            was_deep = .false.
+            do j = 1, places
+                is_deep = deep(j) > overlap_tolerance*depth
+                if (is_deep .and. .not. was_deep) then
+                    if (n == size(found)) return
+                    n = n + 1
+                    found(n) = overlap_t(low + (j - 1)*dy, low=low, high=high, step=dy)
+                end if
+                if (is_deep) then
+                    found(n)%to = low + j*dy
+                    found(n)%deepest = max(found(n)%deepest, deep(j))
+                end if
+                was_deep = is_deep
+            end do
+        end subroutine scan
+    end subroutine find_overlaps
+
+    !> Do surfaces that are apart at a place stay apart, on the way from a patch or an overlap? They
+    !> do as far as the gap is convex: displacements beside all pressures are convex, so that the
+    !> overlap is concave, and it falls already.
+    pure logical function stays_apart(curve, y, dy, n)
+        type(gap_curve_t), intent(in) :: curve !! a gap that was set
+        real(wp), intent(in) :: y  !! place, mm
+        real(wp), intent(in) :: dy !! from place to place, negative to the left, mm
+        integer, intent(in) :: n   !! places to come, at most `max_scan`
+
+        real(wp) :: at(0:max_scan), slope(0:max_scan)
+        integer :: j
+
+        do j = 0, n
+            at(j) = y + (j + merge(0, -n, dy > 0.0_wp))*abs(dy)
+        end do
+        call gap_slopes(curve, at(:n), slope(:n))
+        stays_apart = all(slope(1:n) >= slope(:n - 1))
+    end function stays_apart
 
     !> By how much the deformed surfaces overlap at a point outside the patches, mm; negative where
     !> they are apart, at least by that.

@@ -4,15 +4,20 @@ module faststrip_normal_cells_ranges
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t, level_intervals
     use faststrip_normal_cells, only: cells_t, next_run, max_ranges
-    use faststrip_normal_cells_overlap, only: ranges_t, add_overlaps
+    use faststrip_normal_cells_overlap, only: overlap_t, most_overlaps, find_overlaps
     implicit none
     private
 
     public :: first_ranges, next_ranges
 
-    ! Between ranges, of the widest one: nearer ones are joined.
-    ! Tuned [1]: narrowest range, over the widest. Origin: chosen.
+    ! Tuned [1]: between ranges, of the widest one: nearer ones are joined. Origin: chosen.
     real(wp), parameter :: finest_distance = 1.0e-3_wp
+
+    !> Ranges of y: patches, and overlaps between them.
+    type :: ranges_t
+        integer :: n = 0 !! how many
+        real(wp) :: from(2*max_ranges) = 0.0_wp, to(2*max_ranges) = 0.0_wp !! ends, mm
+    end type ranges_t
 
 contains
 
@@ -38,42 +43,76 @@ contains
         cells%n_ranges = n
     end subroutine first_ranges
 
-    !> The next ranges: the patches found, somewhat wider, and places where the
-    !> surfaces overlap.
-    pure subroutine next_ranges(cells, curve, compliance, grow, overlap)
-        type(cells_t), intent(inout) :: cells !! with the pressures found; gets the ranges
+    !> The next ranges: the patches found, somewhat wider, and places beside them where the surfaces
+    !> overlap.
+    pure subroutine next_ranges(cells, curve, compliance, grow, at_rest)
+        type(cells_t), intent(inout) :: cells
+            !! with the pressures found; gets the ranges, and the deepest overlap
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
         real(wp), intent(in) :: grow           !! each way, in cells
-        real(wp), intent(out) :: overlap       !! deepest outside the patches, of the penetration
+        logical, intent(out) :: at_rest
+            !! does nothing overlap, does no patch end with its range, and do most cells press?
 
         type(ranges_t) :: ranges
+        type(overlap_t) :: overlaps(most_overlaps)
+        real(wp) :: wider(2, max_ranges) ! by which patches are to grow, mm
+        integer :: i, m
 
-        call take_patches(cells, curve, grow, ranges)
-        call add_overlaps(cells, curve, compliance, ranges, overlap)
+        call take_patches(cells, curve, grow, ranges, wider, at_rest)
+        m = ranges%n
+        associate (n => cells%n)
+            call find_overlaps(curve, compliance, cells%depth, cells%y_left(:n), &
+                               cells%y_right(:n), cells%p0(:n), cells%half_length(:n), &
+                               ranges%from(:m), ranges%to(:m), &
+                               maxval(cells%y_right(:n) - cells%y_left(:n), &
+                                      mask=cells%presses(:n)), overlaps)
+            at_rest = at_rest .and. 2*count(cells%presses(:n)) >= n
+        end associate
+        cells%overlap = maxval(overlaps%deepest)/cells%depth
+        at_rest = at_rest .and. .not. cells%overlap > 0.0_wp
+        ranges%from(:m) = max(curve%y(1), ranges%from(:m) - wider(1, :m))
+        ranges%to(:m) = min(curve%y(curve%n), ranges%to(:m) + wider(2, :m))
+        do i = 1, min(count(overlaps%deepest > 0.0_wp), size(ranges%from) - m)
+            ranges%n = m + i
+            ranges%from(m + i) = overlaps(i)%from
+            ranges%to(m + i) = overlaps(i)%to
+        end do
         call sort_ranges(ranges)
         call join_ranges(ranges, cells)
     end subroutine next_ranges
 
-    !> The patches found, wider by some cells.
-    pure subroutine take_patches(cells, curve, grow, ranges)
+    !> The patches found, and by how much each is to grow: by a cell where it ends with its range.
+    pure subroutine take_patches(cells, curve, grow, ranges, wider, at_rest)
         type(cells_t), intent(in) :: cells
         type(gap_curve_t), intent(in) :: curve
-        real(wp), intent(in) :: grow
-        type(ranges_t), intent(out) :: ranges
+        real(wp), intent(in) :: grow ! elsewhere, in cells
+        type(ranges_t), intent(inout) :: ranges
+        real(wp), intent(inout) :: wider(:, :)
+        logical, intent(out) :: at_rest ! does none end with its range?
 
+        real(wp) :: width
         integer :: first, last
+        logical :: cut_left, cut_right
 
-        ranges%n = 0
+        at_rest = .true.
         last = 0
         do while (ranges%n < max_ranges)
             call next_run(cells, first, last)
             if (first > cells%n) exit
+            cut_left = first == 1
+            if (first > 1) cut_left = cells%y_left(first) > cells%y_right(first - 1)
+            cut_right = last == cells%n
+            if (last < cells%n) cut_right = cells%y_left(last + 1) > cells%y_right(last)
+            cut_left = cut_left .and. cells%y_left(first) > curve%y(1)
+            cut_right = cut_right .and. cells%y_right(last) < curve%y(curve%n)
+            at_rest = at_rest .and. .not. (cut_left .or. cut_right)
             ranges%n = ranges%n + 1
-            ranges%from(ranges%n) = max(curve%y(1), cells%y_left(first) &
-                                        - grow*(cells%y_right(first) - cells%y_left(first)))
-            ranges%to(ranges%n) = min(curve%y(curve%n), cells%y_right(last) &
-                                      + grow*(cells%y_right(last) - cells%y_left(last)))
+            width = cells%y_right(first) - cells%y_left(first)
+            wider(1, ranges%n) = width*merge(1.0_wp, grow, cut_left)
+            wider(2, ranges%n) = width*merge(1.0_wp, grow, cut_right)
+            ranges%from(ranges%n) = cells%y_left(first)
+            ranges%to(ranges%n) = cells%y_right(last)
         end do
     end subroutine take_patches
 

@@ -2,15 +2,14 @@
 !> gaps whose strips and ends do not converge; fine ones do so again, or are the answer.
 !>
 !> The first cells lie where the undeformed gap is below a penetration. Where that was far too small
-!> the next ones do so again, else they lie over the patches of those before and over valleys where
+!> the next ones do so again, else they lie over the patches of those before and over places where
 !> the deformed surfaces overlap: three sets, and up to two more of an answer. An end lies in its
-!> cell; else cells are as exact as even strips.
+!> cell, and what is narrower than a cell is not seen.
 module faststrip_normal_cells_solve
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t
     use faststrip_normal_cells, only: cells_t, most_cells, position_cells
     use faststrip_normal_cells_balance, only: balance_cells
-    use faststrip_normal_cells_overlap, only: overlap_tolerance
     use faststrip_normal_cells_ranges, only: first_ranges, next_ranges
     use faststrip_normal_types, only: demand_t
     implicit none
@@ -26,8 +25,8 @@ module faststrip_normal_cells_solve
     integer, parameter :: fine_cells = 26
     ! Tuned [sets]: How often cells are positioned. Origin: chosen; safeguard.
     integer, parameter :: fewest_sets = 3, max_sets = 5
-    ! Tuned [steps]: of the lengths; in sets that are followed by others. Origin: safeguard; chosen
-    ! for the time: the next set begins with them.
+    ! Tuned [steps]: of the lengths, in an answer and in all other sets. Origin: safeguard; chosen
+    ! for the time: what comes next begins with them.
     integer, parameter :: length_steps = 12, first_steps = 4
     ! Tuned [cells]. Origin: chosen: within what the first solution leaves open.
     real(wp), parameter :: first_growth = 1.0_wp, growth = 0.3_wp ! of a patch each way, cells
@@ -46,9 +45,8 @@ contains
         integer, intent(in) :: room            !! most cells of an answer
         real(wp), intent(in) :: depth          !! a guess of the depth, mm
 
-        real(wp) :: overlap
         integer :: set, most, across
-        logical :: is_last
+        logical :: is_last, at_rest
 
         most = most_coarse
         if (are_fine) most = min(most_cells, room)
@@ -63,15 +61,14 @@ contains
             is_last = set >= fewest_sets
             call balance_cells(cells, compliance, demand, &
                                merge(length_steps, first_steps, are_fine .and. is_last))
-            if (.not. cells%solved .or. set == max_sets .or. is_last .and. .not. are_fine) return
+            if (.not. cells%solved .or. is_last .and. .not. are_fine) return
             if (set == 1 .and. 0.5_wp*cells%depth > depth) then
                 call first_ranges(cells, curve, cells%depth)
                 cycle
             end if
             call next_ranges(cells, curve, compliance, merge(first_growth, growth, set == 1), &
-                             overlap)
-            if (is_last .and. overlap < overlap_tolerance &
-                .and. 2*count(cells%presses(:cells%n)) >= cells%n) return
+                             at_rest)
+            if (is_last .and. at_rest) return
         end do
     end subroutine solve_cells
 end module faststrip_normal_cells_solve

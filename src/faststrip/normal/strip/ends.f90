@@ -2,9 +2,9 @@
 !> that the deformed surfaces have closed join in.
 module faststrip_normal_strip_ends
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_slopes, level_intervals, &
-                                           valley_below
-    use faststrip_normal_cells_overlap, only: overlap_tolerance, overlap_depth
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, valley_below
+    use faststrip_normal_cells_overlap, only: overlap_t, most_overlaps, find_overlaps, &
+                                             stays_apart, overlap_depth
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
                                               take_in, sort_patches, join_met_patches
@@ -18,8 +18,6 @@ module faststrip_normal_strip_ends
     !> Tuned [strip widths]. Origin: safeguard: an end moves no farther in a pass.
     real(wp), parameter :: farthest_in = -1.0_wp, farthest_out = 2.0_wp
 
-    ! Tuned [points]. Origin: capacity.
-    integer, parameter :: max_scan = 64      ! points scanned in one stretch outside the patches
     ! Tuned [passes]. Origin: chosen against ends that swing.
     integer, parameter :: damped_pass = 12   ! from this pass on the ends move by damping only
     ! Tuned [1]: Part of a step that an end is moved from then on. Origin: chosen against ends that
@@ -159,111 +157,39 @@ contains
         type(patches_t), intent(inout) :: patches
         logical, intent(out) :: changed
 
-        real(wp) :: y_from(4*max_patches), y_to(4*max_patches), low, high, width
-        integer :: i, n, p
-        type(patches_t) :: solved
+        type(overlap_t) :: overlaps(most_overlaps)
+        type(patch_t) :: seed
+        real(wp) :: from(max_patches), to(max_patches), h, inv2r, width
+        integer :: i, n
 
         changed = .false.
-        solved = patches
-        width = maxval((patches%at(:patches%n)%y_to - patches%at(:patches%n)%y_from) &
-                       /patches%at(:patches%n)%n_strips)
-        call level_intervals(workspace%curve, workspace%curve%h_lowest + penetration, y_from, &
-                             y_to, n)
-        do i = 1, n
-            low = y_from(i)
-            do p = 1, solved%n
-                if (solved%at(p)%y_to <= low .or. solved%at(p)%y_from >= y_to(i)) cycle
-                high = solved%at(p)%y_from
-                if (high > low) call scan(workspace, compliance, penetration, low, high, width, &
-                                          -1, patches, changed)
-                low = max(low, solved%at(p)%y_to)
-            end do
-            if (y_to(i) > low) call scan(workspace, compliance, penetration, low, y_to(i), &
-                                         width, merge(1, 0, low > y_from(i)), patches, changed)
+        width = 0.0_wp
+        do i = 1, patches%n
+            from(i) = patches%at(i)%y_from
+            to(i) = patches%at(i)%y_to
+            width = max(width, (to(i) - from(i))/patches%at(i)%n_strips)
+        end do
+        n = sum(workspace%old%at(:workspace%old%n)%n_strips)
+        associate (strips => workspace%strips)
+            call find_overlaps(workspace%curve, compliance, penetration, strips%y_left(:n), &
+                               strips%y_right(:n), strips%p0(:n), strips%half_length(:n), &
+                               from(:patches%n), to(:patches%n), width, overlaps)
+        end associate
+        do i = 1, most_overlaps
+            associate (one => overlaps(i))
+                if (one%deepest <= 0.0_wp) exit
+                seed = patch_t(one%from, one%to, fewest_strips)
+                call gap_at(workspace%curve, 0.5_wp*(seed%y_from + seed%y_to), h, inv2r)
+                inv2r = max(inv2r, flattest)
+                seed%seed_length = sqrt(one%deepest/inv2r)
+                seed%seed_pressure = plane_strain_share*2.0_wp*inv2r*seed%seed_length &
+                                     /(pi*compliance)
+                call take_in(seed, one%low, one%high, one%step, patches, changed)
+            end associate
         end do
         call sort_patches(patches)
         call join_met_patches(may_merge, patches, changed)
     end subroutine close_overlaps
-
-    !> Scan one stretch outside the patches for overlap.
-    pure subroutine scan(workspace, compliance, penetration, low, high, width, way, patches, &
-                         changed)
-        type(strip_workspace_t), intent(in) :: workspace
-        real(wp), intent(in) :: compliance, penetration, low, high, width
-        integer, intent(in) :: way ! from the patch beside it: 1 to the right, -1 to the left; 0:
-                                   ! there is none
-        type(patches_t), intent(inout) :: patches
-        logical, intent(inout) :: changed
-
-        real(wp) :: dy, depth(max_scan + 1), deepest, h, inv2r
-        integer :: i, j, m, from
-        logical :: overlaps
-        type(patch_t) :: seed
-
-        m = max(2, min(max_scan, ceiling(2.0_wp*(high - low)/width)))
-        dy = (high - low)/m
-        depth(:m + 1) = 0.0_wp
-        overlaps = way /= 0
-        do i = 1, m
-            j = merge(i, m + 1 - i, way >= 0)
-            depth(j) = depth_at(workspace, compliance, penetration, low + (j - 0.5_wp)*dy)
-            if (overlaps .and. depth(j) <= 0.0_wp) then
-                if (stays_apart(workspace%curve, low + (j - 0.5_wp)*dy, way*dy, m - i)) exit
-            end if
-            overlaps = depth(j) > 0.0_wp
-        end do
-        from = 0
-        deepest = 0.0_wp
-        do j = 1, m + 1
-            if (depth(j) > overlap_tolerance*penetration) then
-                if (from == 0) from = j
-                deepest = max(deepest, depth(j))
-            else if (from > 0) then
-                seed = patch_t(low + (from - 1)*dy, low + (j - 1)*dy, fewest_strips)
-                call gap_at(workspace%curve, 0.5_wp*(seed%y_from + seed%y_to), h, inv2r)
-                inv2r = max(inv2r, flattest)
-                seed%seed_length = sqrt(deepest/inv2r)
-                seed%seed_pressure = plane_strain_share*2.0_wp*inv2r*seed%seed_length &
-                                     /(pi*compliance)
-                call take_in(seed, low, high, dy, patches, changed)
-                from = 0
-                deepest = 0.0_wp
-            end if
-        end do
-    end subroutine scan
-
-    !> Do surfaces that are apart at a place stay apart, on the way from a patch or an overlap? They
-    !> do as far as the gap is convex: displacements beside all pressures are convex, so that the
-    !> overlap is concave, and it falls already.
-    pure logical function stays_apart(curve, y, dy, n)
-        type(gap_curve_t), intent(in) :: curve
-        real(wp), intent(in) :: y  ! place, mm
-        real(wp), intent(in) :: dy ! from place to place, negative to the left, mm
-        integer, intent(in) :: n   ! places to come, at most `max_scan`
-
-        real(wp) :: at(0:max_scan), slope(0:max_scan)
-        integer :: j
-
-        do j = 0, n
-            at(j) = y + (j + merge(0, -n, dy > 0.0_wp))*abs(dy)
-        end do
-        call gap_slopes(curve, at(:n), slope(:n))
-        stays_apart = all(slope(1:n) >= slope(:n - 1))
-    end function stays_apart
-
-    !> Overlap of the surfaces that the strips of the last pass deform, mm.
-    pure real(wp) function depth_at(workspace, compliance, penetration, y) result(depth)
-        type(strip_workspace_t), intent(in) :: workspace
-        real(wp), intent(in) :: compliance, penetration, y
-
-        integer :: n
-
-        n = sum(workspace%old%at(:workspace%old%n)%n_strips)
-        associate (strips => workspace%strips)
-            depth = overlap_depth(workspace%curve, compliance, penetration, strips%y_left(:n), &
-                                  strips%y_right(:n), strips%p0(:n), strips%half_length(:n), y)
-        end associate
-    end function depth_at
 
     !> Largest overlap of the deformed surfaces outside the patches, over the penetration, where the
     !> scan of `close_overlaps` may miss it: in the gap's valleys, at the ends of its points, and

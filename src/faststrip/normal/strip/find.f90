@@ -27,7 +27,7 @@ contains
         type(strip_workspace_t), intent(inout) :: workspace !! with a gap set
         real(wp), intent(in) :: compliance         !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand       !! load or penetration
-        logical, intent(in) :: by_fine             !! cells, or coarse ones?
+        logical, intent(in) :: by_fine             !! fine cells, or coarse ones?
         integer, intent(in) :: room                !! most fine cells
         type(patches_t), intent(inout) :: patches  !! those found, not yet shared into strips
         real(wp), intent(inout) :: penetration     !! above the lowest height: a guess; that found,

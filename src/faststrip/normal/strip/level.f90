@@ -13,7 +13,7 @@ module faststrip_normal_strip_level
     use faststrip_normal_strip_figures, only: hand_over, summarize, correction_of
     use faststrip_normal_strip_patches, only: patches_t, share_strips, cut_leaving_strips, &
                                               free_ends, drop_slivers
-    use faststrip_normal_strip_state, only: strip_workspace_t, position_edges, position_strips, &
+    use faststrip_normal_strip_state, only: strip_workspace_t, position_strips, &
                                             remember, forget_edges
     use faststrip_normal_types, only: normal_result_t, demand_t, cost_t
     implicit none
@@ -61,7 +61,7 @@ module faststrip_normal_strip_level
         type(patches_t) :: patches        !! those the next pass starts with
         real(wp) :: penetration = 0.0_wp  !! last found, above the lowest height, mm
         integer :: splits = 0             !! patches split by strips that left
-        logical :: in_doubt = .false.     !! do patches split and join, so that a row found them?
+        logical :: in_doubt = .false.     !! do patches split and join, so that cells found them?
         logical :: converged = .false.    !! is there a pass that stands?
     end type attempt_t
 

@@ -10,7 +10,6 @@ module faststrip_normal_strip_levels
                                      st_fallback_used, st_linear_algebra, st_out_of_range
     use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors
     use faststrip_normal_cells, only: record_strips
-    use faststrip_normal_cells_solve, only: solve_cells
     use faststrip_normal_limitations, only: check_depth, default_resolution
     use faststrip_normal_strips, only: contact_strips_t, usual_strips, usual_strip_tolerance
     use faststrip_normal_strip_figures, only: summarize, correction_of
@@ -51,8 +50,8 @@ module faststrip_normal_strip_levels
     ! The ways to a solution, in the order in which they are tried. Given: numbers of kinds.
     integer, parameter :: from_last = 0   ! solution of the workspace
     integer, parameter :: from_level = 1  ! set of a Hertz ellipse
-    integer, parameter :: from_coarse = 2 ! cells
-    integer, parameter :: from_fine = 3   ! cells, strips and ends in turn
+    integer, parameter :: from_coarse = 2 ! coarse cells
+    integer, parameter :: from_fine = 3   ! fine cells, strips and ends in turn
 
     !> What the user chooses.
     type :: strip_options_t
@@ -171,7 +170,7 @@ contains
 
         type(level_t) :: asked
         type(attempt_t) :: in_turn
-        integer :: first
+        integer :: first, passes
 
         first = level
         do level = first, plan%n
@@ -185,8 +184,14 @@ contains
                 if (.not. attempt%converged) return
                 ! From there edges may follow the gap.
                 in_turn = attempt
+                passes = result%passes
                 call solve_together(workspace, compliance, demand, asked, attempt, strips, result)
-                if (.not. attempt%converged) attempt = in_turn
+                if (.not. attempt%converged) then
+                    attempt = in_turn
+                    call forget_edges(workspace, .false.)
+                    ! Strips that are remembered may be others.
+                    if (result%passes > passes + 1) workspace%old%n = 0
+                end if
             end if
             if (.not. attempt%converged) return
             n_converged = plan%strips(level)
@@ -244,6 +249,7 @@ contains
             plan%n = plan%n + 1
             plan%strips(plan%n) = min(strips, level_factor*plan%strips(plan%n - 1) + 1)
         end do
+        plan%strips(plan%n) = strips
     end function level_plan
 
     !> The answer of the fine cells, for a gap whose ends did not converge.

@@ -4,7 +4,7 @@
 !> strips of a patch always fill it: its two ends move until the squared strip length, extrapolated
 !> by a quadratic through the last three strips, vanishes at them. Strips and ends are solved for
 !> together (`faststrip_normal_strip_converge`), from the last solution or the shape of a Hertz
-!> contact; where that does not succeed, from the patches of coarse cells, together or in turn
+!> contact; where that does not succeed, from the patches of coarse cells, or of fine ones in turn
 !> (`faststrip_normal_strip_levels`, `faststrip_normal_strip_level`). A scan outside the patches
 !> finds gaps that the deformed surfaces have closed, which makes patches appear, grow or merge
 !> (`faststrip_normal_strip_patches`, `faststrip_normal_strip_ends`). A gap whose ends do not
