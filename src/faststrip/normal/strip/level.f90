@@ -63,6 +63,7 @@ module faststrip_normal_strip_level
         integer :: splits = 0             !! patches split by strips that left
         logical :: in_doubt = .false.     !! do patches split and join, so that cells found them?
         logical :: converged = .false.    !! is there a pass that stands?
+        logical :: is_remembered = .true. !! are its strips those that the workspace remembers?
     end type attempt_t
 
 contains
@@ -219,6 +220,7 @@ contains
         call free_ends(attempt%patches)
         attempt%splits = 0
         attempt%converged = .false.
+        attempt%is_remembered = .true.
         before = attempt%patches%at%n_strips
         call share_strips(level%strips_per_patch, attempt%patches)
         if (.not. level%near) return

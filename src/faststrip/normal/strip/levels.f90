@@ -124,7 +124,7 @@ contains
         workspace%old_penetration = attempt%penetration*result%correction
         workspace%old_correction = result%correction
         ! What did not converge is no start for the next solution.
-        if (.not. all_converged) workspace%old%n = 0
+        if (.not. (all_converged .and. attempt%is_remembered)) workspace%old%n = 0
     end subroutine solve_by_levels
 
     !> What a way starts from; but for the last solution, no bit of one before is left.
@@ -189,8 +189,7 @@ contains
                 if (.not. attempt%converged) then
                     attempt = in_turn
                     call forget_edges(workspace, .false.)
-                    ! Strips that are remembered may be others.
-                    if (result%passes > passes + 1) workspace%old%n = 0
+                    attempt%is_remembered = result%passes == passes + 1
                 end if
             end if
             if (.not. attempt%converged) return
