@@ -26,7 +26,7 @@ module faststrip_normal_cells_balance
     ! Tuned [1]: most that a length changes by in a step. Origin: safeguard.
     real(wp), parameter :: length_step = 2.0_wp
     ! Tuned [1]: shortest cell over the longest. Origin: safeguard.
-    real(wp), parameter :: shortest = 0.05_wp
+    real(wp), parameter :: shortest = 0.01_wp
 
 contains
 
