@@ -223,7 +223,7 @@ class Profiles(ProgramTest):
         # Where S1002 touches it.
         at = min(range(len(lines)), key=lambda i: abs(float(lines[i].split()[0]) + 2.0))
         y, z = lines[at].split()
-        for depth, status in ((0.0, "ok"), (0.01, "fallback_used")):
+        for depth, status in ((0.0, "ok"), (0.01, "under_resolved")):
             lines[at] = f"{y} {float(z) + depth:.6f}"
             self.write("r.txt", "\n".join(lines) + "\n")
             self.write("c.nml", profile_case(contact="load_N = 8e4",

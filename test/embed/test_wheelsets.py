@@ -246,7 +246,7 @@ class Interfaces(HostTest):
         package = self.import_package()
         rough = random.Random(9)
         y = [0.5 * k - 40.0 for k in range(161)]
-        wheel = package.Profile(y, [-at * at / 1500.0 - at / 20.0 + rough.gauss(0.0, 0.05)
+        wheel = package.Profile(y, [-at * at / 1500.0 - at / 20.0 + rough.gauss(0.0, 0.1)
                                     for at in y])
         rail = package.Profile(y, [at * at / 600.0 for at in y])
 

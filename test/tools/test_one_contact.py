@@ -23,8 +23,9 @@ STUDIES = {
     # its rows, in the plane or on a curved surface
     "src/faststrip/tangential/fastsim.f90",
     *(f"app/lab/{path}.f90" for path in (
-        # a solver alone: its times from the last solution on, its floating-point flags, rounding
-        "grid/normal", "grid/steps", "fuzz/run", "extremes/noise",
+        # a solver alone: its times from the last solution on, its floating-point flags, rounding,
+        # the cells that strips fall back to
+        "grid/normal", "grid/steps", "grid/errors", "fuzz/run", "extremes/noise",
         # the paper as printed; what a march misses; other forces on strips that were recorded
         "studies/errata", "studies/correction", "forces/features",
         # references by Kalker's methods, on grids and pressures of their own

@@ -1,4 +1,4 @@
-!> Cells: strips whose edges stay where they are. Ranges of y, each divided evenly.
+!> Cells are strips whose edges stay where they are: ranges of y, each divided evenly.
 module faststrip_normal_cells
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
