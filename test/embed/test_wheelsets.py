@@ -245,8 +245,8 @@ class Interfaces(HostTest):
     def test_copies_go_on_alike_also_where_strips_fall_back(self):
         package = self.import_package()
         rough = random.Random(9)
-        y = [0.5 * k - 40.0 for k in range(161)]
-        wheel = package.Profile(y, [-at * at / 1500.0 - at / 20.0 + rough.gauss(0.0, 0.1)
+        y = [0.25 * k - 40.0 for k in range(321)]
+        wheel = package.Profile(y, [-at * at / 1500.0 - at / 20.0 + rough.gauss(0.0, 0.02)
                                     for at in y])
         rail = package.Profile(y, [at * at / 600.0 for at in y])
 

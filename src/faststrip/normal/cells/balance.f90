@@ -20,7 +20,7 @@ module faststrip_normal_cells_balance
     ! chosen against cycling; safeguard.
     integer, parameter :: max_block_rounds = 3, max_rounds = 60
     ! Tuned [1]: of the penetration: not an overlap. Origin: safeguard: above rounding.
-    real(wp), parameter :: open_gap = max(1.0e-12_wp, 4.0_wp*epsilon(1.0_wp))
+    real(wp), parameter :: open_gap = 4.0e3_wp*epsilon(1.0_wp)
     ! Tuned [1]: change of lengths that may be left. Origin: chosen: far below the errors of cells.
     real(wp), parameter :: length_tolerance = 1.0e-3_wp
     ! Tuned [1]: most that a length changes by in a step. Origin: safeguard.
