@@ -1,4 +1,5 @@
-!> Off the centre line, field points on an edge: a double-exponential rule on both sides.
+!> Off the centre line, field points on an edge: a double-exponential rule on both sides. With seven
+!> digits squares at its last nodes, which count for nothing, underflow: they are held above zero.
 module faststrip_influence_offcentre_folded
     use faststrip_base_kinds, only: wp
     use faststrip_numerics_logarithm, only: log_1p
@@ -59,7 +60,7 @@ contains
             delta = (1.0_wp - place)*(y*(2.0_wp - y))
             f = 1.0_wp + place + delta
             u = place + delta
-            sl = sqrt(delta*delta + cl*cl)
+            sl = sqrt(max(delta*delta + cl*cl, tiny(cl)))
             sr = sqrt(delta*delta + cr*cr)
             d = (cr - cl)*(sr + sl + cr + cl)/((sr + sl)*(cl + sl))
             ker = log_1p(d)
@@ -91,7 +92,7 @@ contains
             q = y*(2.0_wp - y)
             delta = 2.0_wp*q*q
             u = 1.0_wp - delta
-            sl = sqrt(delta*delta + cl*cl)
+            sl = sqrt(max(delta*delta + cl*cl, tiny(cl)))
             sr = sqrt(delta*delta + cr*cr)
             d = (cr - cl)*(sr + sl + cr + cl)/((sr + sl)*(cl + sl))
             ker = log_1p(d)
