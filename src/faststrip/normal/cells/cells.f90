@@ -36,7 +36,6 @@ module faststrip_normal_cells
         integer :: n_old = 0    !! that pressed before
         integer :: n_ranges = 0 !! ranges of y, each divided into even cells
         real(wp) :: depth = 0.0_wp !! penetration above the lowest height that closes the gap, mm
-        real(wp) :: overlap = 0.0_wp !! deepest beside them, over the depth
         logical :: solved = .false. !! are there pressures?
         real(wp) :: y_from(max_ranges) = 0.0_wp, y_to(max_ranges) = 0.0_wp !! their ends, mm
         integer :: number(max_ranges) = 0 !! of cells in each

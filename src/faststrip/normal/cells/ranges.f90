@@ -4,7 +4,7 @@ module faststrip_normal_cells_ranges
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t, level_intervals
     use faststrip_normal_cells, only: cells_t, next_run, max_ranges
-    use faststrip_normal_cells_overlap, only: overlap_t, most_overlaps, find_overlaps
+    use faststrip_normal_overlap, only: overlap_t, most_overlaps, find_overlaps
     implicit none
     private
 
@@ -47,7 +47,7 @@ contains
     !> overlap.
     pure subroutine next_ranges(cells, curve, compliance, grow, at_rest)
         type(cells_t), intent(inout) :: cells
-            !! with the pressures found; gets the ranges, and the deepest overlap
+            !! with the pressures found; gets the ranges
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
         real(wp), intent(in) :: grow           !! each way, in cells
@@ -69,11 +69,11 @@ contains
                                       mask=cells%presses(:n)), overlaps)
             at_rest = at_rest .and. 2*count(cells%presses(:n)) >= n
         end associate
-        cells%overlap = maxval(overlaps%deepest)/cells%depth
-        at_rest = at_rest .and. .not. cells%overlap > 0.0_wp
         ranges%from(:m) = max(curve%y(1), ranges%from(:m) - wider(1, :m))
         ranges%to(:m) = min(curve%y(curve%n), ranges%to(:m) + wider(2, :m))
-        do i = 1, min(count(overlaps%deepest > 0.0_wp), size(ranges%from) - m)
+        do i = 1, size(overlaps)
+            if (overlaps(i)%deepest <= 0.0_wp) exit
+            at_rest = .false.
             ranges%n = m + i
             ranges%from(m + i) = overlaps(i)%from
             ranges%to(m + i) = overlaps(i)%to

@@ -53,7 +53,7 @@ module faststrip_normal_estimate_errors
                                      st_bad_argument, st_bad_material, st_not_finite, &
                                      st_no_contact, st_out_of_range, st_workspace_too_small
     use faststrip_geometry_gap_curve, only: gap_curve_t
-    use faststrip_normal_cells_overlap, only: named_overlap
+    use faststrip_normal_overlap, only: named_overlap
     use faststrip_normal_estimate_outside, only: look_elsewhere, is_outside
     use faststrip_normal_estimate_pressure, only: unresolved_in, longitudinal_pressure
     use faststrip_normal_estimate_samples, only: block, most_samples, sample, part_end

@@ -3,7 +3,7 @@
 module faststrip_normal_strip_ends
     use faststrip_base_kinds, only: wp, pi
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, valley_below
-    use faststrip_normal_cells_overlap, only: overlap_t, most_overlaps, find_overlaps, &
+    use faststrip_normal_overlap, only: overlap_t, most_overlaps, find_overlaps, &
                                              stays_apart, overlap_depth
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &

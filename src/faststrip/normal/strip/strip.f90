@@ -22,7 +22,7 @@ module faststrip_normal_strip
                                      st_overlap_left, st_more_strips, st_workspace_too_small, &
                                      st_no_convergence
     use faststrip_base_material, only: check_compliance
-    use faststrip_normal_cells_overlap, only: named_overlap
+    use faststrip_normal_overlap, only: named_overlap
     use faststrip_normal_limitations, only: check_curvature, check_depth, check_lowest, &
                                             name_limitations, name_steps
     use faststrip_normal_strips, only: contact_strips_t, mirror_strips

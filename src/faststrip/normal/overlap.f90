@@ -1,5 +1,5 @@
-!> Where the deformed surfaces overlap outside what presses.
-module faststrip_normal_cells_overlap
+!> Where the deformed surfaces overlap beside strips, or cells, that press.
+module faststrip_normal_overlap
     use faststrip_base_kinds, only: wp, pi
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_slopes, level_intervals
     use faststrip_influence_closed, only: strip_influence_edges
@@ -70,14 +70,14 @@ contains
             type(overlap_t), intent(inout) :: found(:)
             integer, intent(inout) :: n ! how many so far
 
-            real(wp) :: dy, deep(max_scan + 1)
+            real(wp) :: dy, deep(max_scan)
             integer :: k, j, places
             logical :: is_deep, was_deep
 
             ! A quarter less: a stretch often is a whole number of cells, and rounding would count.
             places = max(2, min(max_scan, ceiling(2.0_wp*(high - low)/width - 0.25_wp)))
             dy = (high - low)/places
-            deep(:places + 1) = 0.0_wp
+            deep(:places) = 0.0_wp
             was_deep = way /= 0
             do k = 1, places
                 j = merge(k, places + 1 - k, way >= 0)
@@ -164,4 +164,4 @@ contains
         end do
         depth = undeformed - displacement
     end function overlap_depth
-end module faststrip_normal_cells_overlap
+end module faststrip_normal_overlap
