@@ -18,7 +18,7 @@ LABEL = r"- \*\*([NFSPLKV]\d+)\*\* "
 CONSTANTS = (
     ("strip/grading.f90", "end_grading", "0.7", "$g = 0.7$"),
     ("strip/equations.f90", "leaving_length_ratio", "0.15", "its length falls below 0.15 of its"),
-    ("cells/overlap.f90", "overlap_tolerance", "1.0e-3", "below $-10^{-3} D$"),
+    ("overlap.f90", "overlap_tolerance", "1.0e-3", "below $-10^{-3} D$"),
     ("strip/patches.f90", "fewest_strips_small_patch", "9", "but at least nine"),
     ("strip/grading.f90", "most_narrowed", "5.0", "$V$, at most 5,"),
     ("strip/figures.f90", "missed", "0.09", "\\left( 1 + 0.09"),
