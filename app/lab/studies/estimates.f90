@@ -18,10 +18,10 @@ module faststrip_lab_studies_estimates
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
     use faststrip_normal_strip, only: strips_auto
-    use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors, &
-                                                richardson_estimate
+    use faststrip_normal_estimate_errors, only: normal_errors_t, estimate_strip_errors
     use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_normal, only: norm_workspace_t, release_norm
+    use faststrip_kalker_normal_estimate, only: richardson_estimate
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: workspace_t
     use faststrip_lab_grid_cases, only: bench_case_t, read_bench_cases
@@ -269,8 +269,7 @@ contains
             call fail_on_error(status)
             if (.not. contact%is_halved(i)) cycle
             call richardson_estimate(coarse, contact%result(i), real(n, wp)/half_of(n), &
-                                     contact%h_lowest, contact%halves(i), status)
-            call fail_on_error(status)
+                                     contact%h_lowest, contact%halves(i))
         end do
     end subroutine solve_all
 

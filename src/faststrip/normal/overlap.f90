@@ -1,12 +1,14 @@
 !> Where the deformed surfaces overlap beside strips, or cells, that press.
 module faststrip_normal_overlap
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_slopes, level_intervals
+    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, gap_slopes, &
+                                            level_intervals, valley_below
     use faststrip_influence_closed, only: strip_influence_edges
+    use faststrip_normal_strips, only: contact_strips_t, starts_patch, ends_patch
     implicit none
     private
 
-    public :: overlap_t, most_overlaps, find_overlaps, stays_apart, overlap_depth
+    public :: overlap_t, most_overlaps, find_overlaps, overlap_outside
     public :: overlap_tolerance, named_overlap
 
     !> Overlaps that are left, over the penetration: of cells as of strips.
@@ -21,6 +23,11 @@ module faststrip_normal_overlap
     !> Most overlaps that are found at a time.
     !> Tuned [overlaps]. Origin: capacity.
     integer, parameter :: most_overlaps = 64
+
+    ! Tuned [strip widths]: Places beside an end, in widths of its strip. Origin: chosen.
+    real(wp), parameter :: beside(6) = [0.5_wp, 0.7_wp, 0.9_wp, 1.2_wp, 1.6_wp, 2.2_wp]
+    ! Tuned [1]. Origin: chosen.
+    real(wp), parameter :: share = 0.5_wp ! of what counts there: few strips leave some
 
     !> A place outside the patches where the surfaces overlap.
     type :: overlap_t
@@ -106,6 +113,75 @@ contains
             end do
         end subroutine scan
     end subroutine find_overlaps
+
+    !> Largest overlap of the deformed surfaces outside the patches of a solution, over the depth:
+    !> in the gap's valleys, at the ends of its points, and next to the ends of the patches.
+    pure real(wp) function overlap_outside(curve, compliance, depth, strips) result(largest)
+        type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
+        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
+        real(wp), intent(in) :: depth                !! at which the strips close it, mm
+        type(contact_strips_t), intent(in) :: strips !! the solution
+
+        real(wp) :: width
+        integer :: j, k
+
+        ! A valley may be cut off by the end of the points.
+        largest = max(overlap_at(curve%y(1)), overlap_at(curve%y(curve%n)))
+        j = 1
+        do
+            j = valley_below(curve, curve%h_lowest + depth, j + 1)
+            if (j > curve%n_pieces) exit
+            largest = max(largest, overlap_at(curve%y_node(j)))
+        end do
+        do k = 1, strips%n
+            width = strips%y_right(k) - strips%y_left(k)
+            if (starts_patch(strips, k)) &
+                largest = max(largest, overlap_beside(strips%y_left(k), -width))
+            if (ends_patch(strips, k)) &
+                largest = max(largest, overlap_beside(strips%y_right(k), width))
+        end do
+        largest = largest/depth
+
+    contains
+
+        !> Overlap at a place, mm; zero in a patch and where the gap has no points.
+        pure real(wp) function overlap_at(y) result(overlap)
+            real(wp), intent(in) :: y ! mm
+
+            overlap = 0.0_wp
+            associate (n => strips%n)
+                if (y < curve%y(1) .or. y > curve%y(curve%n)) return
+                if (any(strips%y_left(:n) <= y .and. strips%y_right(:n) >= y)) return
+                overlap = max(overlap, overlap_depth(curve, compliance, depth, strips%y_left(:n), &
+                                                     strips%y_right(:n), strips%p0(:n), &
+                                                     strips%half_length(:n), y))
+            end associate
+        end function overlap_at
+
+        !> Overlap beside an end of a patch, so far as it counts, mm.
+        pure real(wp) function overlap_beside(y, outwards) result(counts)
+            real(wp), intent(in) :: y        ! the end, mm
+            real(wp), intent(in) :: outwards ! width of the end strip, negative to the left, mm
+
+            real(wp) :: overlap, at
+            integer :: i, n
+            logical :: overlaps
+
+            counts = 0.0_wp
+            overlaps = .true.
+            do i = 1, size(beside)
+                at = y + beside(i)*outwards
+                overlap = overlap_at(at)
+                counts = max(counts, share*overlap)
+                n = size(beside) - i
+                if (overlaps .and. overlap <= 0.0_wp .and. n > 0) then
+                    if (stays_apart(curve, at, (beside(size(beside)) - beside(i))*outwards/n, n)) &
+                        exit
+                end if
+                overlaps = overlap > 0.0_wp
+            end do
+        end function overlap_beside
+    end function overlap_outside
 
     !> Do surfaces that are apart at a place stay apart, on the way from a patch or an overlap? They
     !> do as far as the gap is convex: displacements beside all pressures are convex, so that the

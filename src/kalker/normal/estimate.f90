@@ -22,6 +22,7 @@ module faststrip_kalker_normal_estimate
     use faststrip_base_kinds, only: wp, pi
     use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_estimate_unresolved, only: unresolved_pressure
+    use faststrip_normal_types, only: normal_result_t
     use faststrip_kalker_border, only: border_area
     use faststrip_kalker_grid, only: contact_grid_t, element_y
     use faststrip_kalker_normal_options, only: fewest_elements
@@ -29,8 +30,11 @@ module faststrip_kalker_normal_estimate
     implicit none
     private
 
-    public :: raise_estimates
+    public :: richardson_estimate, raise_estimates
 
+    ! Given: order of a smooth solution; factor of safety for two grids (P. J. Roache, Perspective:
+    ! A Method for Uniform Reporting of Grid Refinement Studies, 1994).
+    real(wp), parameter :: order = 2.0_wp, two_grid_safety = 3.0_wp
     ! Tuned [1]: Factors of the estimates, see the module's head. Origin: calibrated, see the
     ! module's head.
     real(wp), parameter :: peak_share = 0.5_wp, border_share = 0.35_wp
@@ -38,6 +42,25 @@ module faststrip_kalker_normal_estimate
     real(wp), parameter :: penetration_share = 0.1_wp
 
 contains
+
+    !> Errors of a fine solution from it and a coarser one of the same contact, as Richardson: the
+    !> difference over `ratio^2 - 1`, second order in the number of elements or strips, times 3. The
+    !> residuals are left as they are.
+    pure subroutine richardson_estimate(coarse, fine, ratio, h_lowest, normal_errors)
+        type(normal_result_t), intent(in) :: coarse !! with fewer elements
+        type(normal_result_t), intent(in) :: fine   !! with more, the errors are its
+        real(wp), intent(in) :: ratio               !! of their numbers, 2 for N/2 and N
+        real(wp), intent(in) :: h_lowest            !! lowest height of the gap, mm
+        type(normal_errors_t), intent(inout) :: normal_errors !! its estimates are replaced
+
+        real(wp) :: factor
+
+        factor = two_grid_safety/(ratio**order - 1.0_wp)
+        normal_errors%est_err_penetration = factor*abs(coarse%penetration - fine%penetration) &
+                                            /(fine%penetration - h_lowest)
+        normal_errors%est_err_pmax = factor*abs(coarse%pmax - fine%pmax)/fine%pmax
+        normal_errors%est_err_area = factor*abs(coarse%area - fine%area)/fine%area
+    end subroutine richardson_estimate
 
     !> Raise Richardson's estimates to what the grid itself tells.
     pure subroutine raise_estimates(curve, compliance, grid, coarse, normal_errors)

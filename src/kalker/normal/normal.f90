@@ -21,7 +21,7 @@ module faststrip_kalker_normal
     use faststrip_geometry_gap_curve, only: gap_curve_t, reserve_gap_curve, set_gap_curve, &
                                             copy_gap_curve
     use faststrip_kalker_grid, only: contact_grid_t, size_grid, element_y, take_pressures
-    use faststrip_kalker_normal_estimate, only: raise_estimates
+    use faststrip_kalker_normal_estimate, only: richardson_estimate, raise_estimates
     use faststrip_kalker_normal_grid, only: grid_solver_t, release_grid_solver, set_task, &
                                             solve_on_grid, guess_on_heights, take_figures
     use faststrip_kalker_normal_options, only: norm_options_t, check_options, check_numbers, &
@@ -33,7 +33,7 @@ module faststrip_kalker_normal
                                                 guess_pressures, enlargement
     use faststrip_kalker_normal_rows, only: pressures_of_strips
     use faststrip_kalker_normal_solver, only: task_t, minimised_t
-    use faststrip_normal_estimate_errors, only: normal_errors_t, richardson_estimate
+    use faststrip_normal_estimate_errors, only: normal_errors_t
     use faststrip_normal_limitations, only: check_depth, check_lowest, name_step
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t, demand_t, above_lowest
@@ -285,7 +285,6 @@ contains
         type(spacing_t) :: spacing
         type(extent_t) :: extent
         type(normal_result_t) :: coarse
-        type(status_t) :: estimate
         integer :: level, levels
 
         call begin(workspace)
@@ -334,12 +333,11 @@ contains
             end if
             if (level > 1) then
                 call richardson_estimate(coarse, result, 2.0_wp, workspace%curve%h_lowest, &
-                                         workspace%normal_errors, estimate)
-                workspace%is_estimated = .not. is_error(estimate)
-                if (workspace%is_estimated) &
-                    call raise_estimates(workspace%curve, compliance, workspace%grid, &
-                                         workspace%coarse, workspace%normal_errors)
-                if (options%error_target > 0.0_wp .and. workspace%is_estimated .and. &
+                                         workspace%normal_errors)
+                call raise_estimates(workspace%curve, compliance, workspace%grid, &
+                                     workspace%coarse, workspace%normal_errors)
+                workspace%is_estimated = .true.
+                if (options%error_target > 0.0_wp .and. &
                     max(workspace%normal_errors%est_err_penetration, &
                         workspace%normal_errors%est_err_pmax) <= options%error_target) exit
             end if

@@ -1,8 +1,8 @@
 !> Pressures, lengths and penetration of cells.
 !>
 !> The gap closes in the middle of a cell that presses and at its tips. For given lengths pressures
-!> are those of an active set: cells that pull leave and cells that overlap join, all at once as
-!> long as they become fewer, then one at a time. The tips then ask for other lengths.
+!> are those of an active set: cells that pull leave and cells that overlap join, all at once. The
+!> tips then ask for other lengths.
 module faststrip_normal_cells_balance
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_row, only: center_influence_column
@@ -16,33 +16,31 @@ module faststrip_normal_cells_balance
 
     public :: balance_cells
 
-    ! Tuned [rounds]: of the active set at once without fewer infeasible cells; of all. Origin:
-    ! chosen against cycling; safeguard.
-    integer, parameter :: max_block_rounds = 3, max_rounds = 60
+    ! Tuned [rounds]: of the active set. Origin: safeguard.
+    integer, parameter :: max_rounds = 60
     ! Tuned [1]: of the penetration: not an overlap. Origin: safeguard: above rounding.
     real(wp), parameter :: open_gap = 4.0e3_wp*epsilon(1.0_wp)
+    ! Tuned [steps]: of the lengths. Origin: safeguard.
+    integer, parameter :: length_steps = 12
     ! Tuned [1]: change of lengths that may be left. Origin: chosen: far below the errors of cells.
     real(wp), parameter :: length_tolerance = 1.0e-3_wp
-    ! Tuned [1]: most that a length changes by in a step. Origin: safeguard.
-    real(wp), parameter :: length_step = 2.0_wp
     ! Tuned [1]: shortest cell over the longest. Origin: safeguard.
     real(wp), parameter :: shortest = 0.01_wp
 
 contains
 
     !> Find them. Nothing is allocated.
-    pure subroutine balance_cells(cells, compliance, demand, steps)
+    pure subroutine balance_cells(cells, compliance, demand)
         type(cells_t), intent(inout) :: cells !! positioned, with a guess of their depth
         real(wp), intent(in) :: compliance    !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand  !! load, or penetration above the lowest height
-        integer, intent(in) :: steps          !! of the lengths, at most
 
         integer :: step, j, n
 
         n = cells%n
         call start_lengths(cells)
         cells%presses(:n) = .true.
-        do step = 1, steps
+        do step = 1, length_steps
             associate (length => cells%half_length(:n))
                 length = max(length, shortest*maxval(length, mask=cells%presses(:n)))
                 do j = 1, n
@@ -50,12 +48,10 @@ contains
                                                  cells%y(:n), cells%influence(:n, j))
                 end do
                 call find_pressing(cells, compliance, demand)
-                if (.not. cells%solved .or. step == steps) exit
+                if (.not. cells%solved .or. step == length_steps) exit
                 call close_tips(cells, compliance)
                 if (all(abs(cells%length(:n) - length) <= length_tolerance*length &
                         .or. .not. cells%presses(:n))) exit
-                ! What has not come to rest by then goes back and forth.
-                if (2*step > steps) cells%length(:n) = sqrt(length*cells%length(:n))
                 length = cells%length(:n)
             end associate
         end do
@@ -68,11 +64,9 @@ contains
         type(demand_t), intent(in) :: demand
 
         real(wp) :: carried
-        integer :: rounds, tries, infeasible, fewest, first, i, k, n
+        integer :: rounds, infeasible, i, k, n
 
         n = cells%n
-        fewest = n + 1
-        tries = 0
         do rounds = 1, max_rounds
             if (.not. any(cells%presses(:n))) &
                 cells%presses(minloc(cells%height(:n), dim=1)) = .true.
@@ -80,12 +74,7 @@ contains
             if (.not. cells%solved) return
             call find_infeasible(cells, compliance, infeasible)
             if (infeasible == 0) exit
-            tries = tries + 1
-            if (infeasible < fewest) tries = 0
-            fewest = min(fewest, infeasible)
-            first = 1
-            if (tries > max_block_rounds) first = infeasible
-            do i = first, infeasible
+            do i = 1, infeasible
                 k = cells%at(i)
                 cells%presses(k) = .not. cells%presses(k)
             end do
@@ -202,8 +191,6 @@ contains
                 if (cells%presses(k)) then
                     cells%length(k) = sqrt(max(cells%depth - cells%height(k) - displaced(k), &
                                                0.0_wp)/cells%inv2r(k))
-                    cells%length(k) = min(max(cells%length(k), length(k)/length_step), &
-                                          length(k)*length_step)
                 else
                     cells%length(k) = least
                 end if

@@ -1,10 +1,9 @@
 !> Normal contact by cells: strips whose edges stay where they are. Coarse ones find the patches of
 !> gaps whose strips and ends do not converge; fine ones do so again, or are the answer.
 !>
-!> The first cells lie where the undeformed gap is below a penetration. Where that was far too small
-!> the next ones do so again, else they lie over the patches of those before and over places where
-!> the deformed surfaces overlap: three sets, and up to two more of an answer. An end lies in its
-!> cell, and what is narrower than a cell is not seen.
+!> The first cells lie where the undeformed gap is below a penetration, the next ones over the
+!> patches of those before and over places where the deformed surfaces overlap: three sets, and up
+!> to two more of an answer. An end lies in its cell, and what is narrower than a cell is not seen.
 module faststrip_normal_cells_solve
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t
@@ -17,17 +16,14 @@ module faststrip_normal_cells_solve
 
     public :: solve_cells
 
-    ! Tuned [cells]: across the widest range, of all, of coarse ones. Origin: chosen for the time: a
-    ! neck of a tenth of the contact is seen.
-    integer, parameter :: coarse_cells = 15, most_coarse = 36
+    ! Tuned [cells]: across the widest range of coarse ones. Origin: chosen for the time: a neck of
+    ! a tenth of the contact is seen.
+    integer, parameter :: coarse_cells = 15
     ! Tuned [cells]: across the widest range of fine ones. Origin: of 4,000 random gaps most are
     ! solved by strips from as many, with 20 or 31 half a percent fewer.
     integer, parameter :: fine_cells = 26
     ! Tuned [sets]: How often cells are positioned. Origin: chosen; safeguard.
     integer, parameter :: fewest_sets = 3, max_sets = 5
-    ! Tuned [steps]: of the lengths, in an answer and in all other sets. Origin: safeguard; chosen
-    ! for the time: what comes next begins with them.
-    integer, parameter :: length_steps = 12, first_steps = 4
     ! Tuned [cells]. Origin: chosen: within what the first solution leaves open.
     real(wp), parameter :: first_growth = 1.0_wp, growth = 0.3_wp ! of a patch each way, cells
 
@@ -48,8 +44,7 @@ contains
         integer :: set, most, across
         logical :: is_last, at_rest
 
-        most = most_coarse
-        if (are_fine) most = min(most_cells, room)
+        most = merge(min(most_cells, room), most_cells, are_fine)
         cells%n = 0
         cells%depth = depth
         call first_ranges(cells, curve, depth)
@@ -59,13 +54,8 @@ contains
             across = merge(fine_cells, coarse_cells, are_fine .and. set > 1)
             call position_cells(cells, curve, min(most, across), most)
             is_last = set >= fewest_sets
-            call balance_cells(cells, compliance, demand, &
-                               merge(length_steps, first_steps, are_fine .and. is_last))
+            call balance_cells(cells, compliance, demand)
             if (.not. cells%solved .or. is_last .and. .not. are_fine) return
-            if (set == 1 .and. 0.5_wp*cells%depth > depth) then
-                call first_ranges(cells, curve, cells%depth)
-                cycle
-            end if
             call next_ranges(cells, curve, compliance, merge(first_growth, growth, set == 1), &
                              at_rest)
             if (is_last .and. at_rest) return

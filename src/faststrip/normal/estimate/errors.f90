@@ -10,7 +10,8 @@
 !>
 !> - `e`: on the centre line at the edges of the strips, the patch's ends among them,
 !> - `m`: at 1/sqrt(2) of the half-length (Chebyshev's point) in the middle of nine strips,
-!> - outside: on the centre line beyond the ends, and wherever else a valley is below D.
+!> - outside: on the centre line beside the ends, and wherever else a valley is below D
+!>   (`faststrip_normal_overlap`).
 !>
 !> `e` falls with the number of strips; `m` does not, as all strips take their sections for
 !> semi-ellipses. The first-order error of the penetration is a mean of r (reciprocity: weighted by
@@ -53,8 +54,7 @@ module faststrip_normal_estimate_errors
                                      st_bad_argument, st_bad_material, st_not_finite, &
                                      st_no_contact, st_out_of_range, st_workspace_too_small
     use faststrip_geometry_gap_curve, only: gap_curve_t
-    use faststrip_normal_overlap, only: named_overlap
-    use faststrip_normal_estimate_outside, only: look_elsewhere, is_outside
+    use faststrip_normal_overlap, only: named_overlap, overlap_outside
     use faststrip_normal_estimate_pressure, only: unresolved_in, longitudinal_pressure
     use faststrip_normal_estimate_samples, only: block, most_samples, sample, part_end
     use faststrip_normal_strips, only: contact_strips_t, starts_patch, ends_patch
@@ -62,7 +62,7 @@ module faststrip_normal_estimate_errors
     implicit none
     private
 
-    public :: normal_errors_t, estimate_strip_errors, richardson_estimate
+    public :: normal_errors_t, estimate_strip_errors
 
     !> How well a solution fulfils the contact condition, and its estimated relative errors.
     type :: normal_errors_t
@@ -95,12 +95,6 @@ module faststrip_normal_estimate_errors
     ! Tuned [strips]: Strips in which sections are sampled. Origin: cost; of fifteen or all of
     ! thirty-one estimates are the same.
     integer, parameter :: most_sections = 9
-    ! Tuned [strip widths]: Places beyond the ends. Origin: chosen; just outside, and one strip.
-    real(wp), parameter :: beyond(2) = [0.25_wp, 1.0_wp]
-
-    ! Two-grid estimate: the order of the strips, and Roache's factor of safety for two grids.
-    ! Tuned [1]. Origin: the order of a smooth solution; Roache's factor.
-    real(wp), parameter :: order = 2.0_wp, two_grid_safety = 3.0_wp
 
     !> Sums over the strips, and the largest of what their residuals ask for.
     type :: sums_t
@@ -114,13 +108,6 @@ module faststrip_normal_estimate_errors
         real(wp) :: largest_p0 = 0.0_wp ! with what its strip asks for, MPa
         real(wp) :: longitudinal = 0.0_wp ! that a varying A may mean, MPa
     end type sums_t
-
-    !> Places on the centre line.
-    type :: points_t
-        integer :: n = 0
-        real(wp) :: y(most_samples) = 0.0_wp         ! mm
-        logical :: is_beside(most_samples) = .false. ! beyond the end of a patch, or an edge?
-    end type points_t
 
 contains
 
@@ -154,48 +141,41 @@ contains
         do i = 1, blocks
             call add_edges(curve, compliance, strips, depth, &
                            1 + part_end(i - 1, blocks, strips%n), part_end(i, blocks, strips%n), &
-                           sums, normal_errors)
+                           sums, normal_errors%residual_inside)
         end do
         call add_sections(curve, compliance, strips, depth, sums, normal_errors%residual_inside)
-        call look_elsewhere(curve, compliance, strips, depth, normal_errors%overlap_outside)
+        normal_errors%overlap_outside = overlap_outside(curve, compliance, depth, strips)
         call estimate(strips, result, depth/compliance, sums, normal_errors)
     end subroutine estimate_strip_errors
 
-    !> Add what the edges of a block of strips tell, and the places beyond the ends of patches.
-    pure subroutine add_edges(curve, compliance, strips, depth, from, to, sums, normal_errors)
+    !> Add what the edges of a block of strips tell.
+    pure subroutine add_edges(curve, compliance, strips, depth, from, to, sums, residual)
         type(gap_curve_t), intent(in) :: curve
         real(wp), intent(in) :: compliance, depth
         type(contact_strips_t), intent(in) :: strips
         integer, intent(in) :: from, to ! the strips
         type(sums_t), intent(inout) :: sums
-        type(normal_errors_t), intent(inout) :: normal_errors ! residual and overlap are raised
+        real(wp), intent(inout) :: residual ! raised to the largest |gap|
 
-        type(points_t) :: points
         real(wp), dimension(block) :: width, edge ! mean gaps of both edges
-        real(wp) :: gap(most_samples), extra, mean
-        integer :: right(block), i, k, n
+        real(wp), dimension(most_samples) :: y, gap
+        real(wp) :: extra, mean
+        integer :: right(block), i, k, n, edges
 
         n = to - from + 1
         width(:n) = strips%y_right(from:to) - strips%y_left(from:to)
+        edges = 0
         do k = from, to
-            i = k - from + 1
-            if (starts_patch(strips, k)) &
-                call put(strips%y_left(k) - beyond*width(i), .true., points)
-            if (k == from .or. starts_patch(strips, k)) &
-                call put([strips%y_left(k)], .false., points)
-            call put([strips%y_right(k)], .false., points)
-            right(i) = points%n
-            if (ends_patch(strips, k)) &
-                call put(strips%y_right(k) + beyond*width(i), .true., points)
-        end do
-        call sample(curve, compliance, strips, depth, points%y(:points%n), gap(:points%n))
-        do i = 1, points%n
-            if (.not. points%is_beside(i)) then
-                normal_errors%residual_inside = max(normal_errors%residual_inside, abs(gap(i)))
-            else if (is_outside(curve, strips, points%y(i))) then
-                normal_errors%overlap_outside = max(normal_errors%overlap_outside, -gap(i))
+            if (k == from .or. starts_patch(strips, k)) then
+                edges = edges + 1
+                y(edges) = strips%y_left(k)
             end if
+            edges = edges + 1
+            y(edges) = strips%y_right(k)
+            right(k - from + 1) = edges
         end do
+        call sample(curve, compliance, strips, depth, y(:edges), gap(:edges))
+        residual = max(residual, maxval(abs(gap(:edges))))
         do i = 1, n
             edge(i) = 0.5_wp*(gap(right(i) - 1) + gap(right(i)))
         end do
@@ -220,17 +200,6 @@ contains
         sums%longitudinal = max(sums%longitudinal, &
                               longitudinal_pressure(curve, compliance, strips, depth, from, to))
     end subroutine add_edges
-
-    !> More points.
-    pure subroutine put(y, is_beside, points)
-        real(wp), intent(in) :: y(:)
-        logical, intent(in) :: is_beside
-        type(points_t), intent(inout) :: points
-
-        points%y(points%n + 1:points%n + size(y)) = y
-        points%is_beside(points%n + 1:points%n + size(y)) = is_beside
-        points%n = points%n + size(y)
-    end subroutine put
 
     !> The gap that a pressure p in a strip of some width closes is H p times this, mm.
     pure real(wp) function wave_length(width, half_length) result(length)
@@ -324,44 +293,6 @@ contains
                                              normal_errors%overlap_outside)
         end if
     end subroutine estimate
-
-    !> Errors of a fine solution from it and a coarser one of the same contact, as Richardson: the
-    !> difference over `ratio^2 - 1`, second order in the number of strips, times 3, Roache's
-    !> factor of safety for two grids. The residuals are left as they are.
-    !>
-    !> Errors: `st_bad_argument`: a ratio not above 1, or a result without pressure or area.
-    pure subroutine richardson_estimate(coarse, fine, ratio, h_lowest, normal_errors, status)
-        type(normal_result_t), intent(in) :: coarse !! with fewer strips
-        type(normal_result_t), intent(in) :: fine   !! with more strips, the errors are its
-        real(wp), intent(in) :: ratio               !! of their numbers of strips, 2 for N/2 and N
-        real(wp), intent(in) :: h_lowest            !! lowest height of the gap, mm
-        type(normal_errors_t), intent(inout) :: normal_errors !! its estimates are replaced
-        type(status_t), intent(out) :: status       !! `st_bad_argument`, `st_not_finite`
-
-        real(wp) :: factor
-
-        call clear_status(status)
-        if (.not. all(ieee_is_finite([ratio, h_lowest, coarse%penetration, coarse%pmax, &
-                                      coarse%area, fine%penetration, fine%pmax, fine%area]))) then
-            call set_status(status, st_not_finite, 'a figure of the solutions is not finite')
-            return
-        end if
-        if (ratio <= 1.0_wp .or. ratio > largest_size) then
-            call set_status(status, st_bad_argument, 'the ratio of the numbers of strips must ' &
-                            //'be above 1, got '//number_text(ratio))
-        else if (min(fine%pmax, fine%area, fine%penetration - h_lowest) < smallest_size &
-                 .or. max(coarse%pmax, coarse%area, abs(coarse%penetration)) > largest_size &
-                 .or. max(fine%pmax, fine%area, abs(fine%penetration)) > largest_size) then
-            call set_status(status, st_bad_argument, 'a result without penetration, pressure or ' &
-                            //'area')
-        else
-            factor = two_grid_safety/(ratio**order - 1.0_wp)
-            normal_errors%est_err_penetration = factor*abs(coarse%penetration - fine%penetration) &
-                                              /(fine%penetration - h_lowest)
-            normal_errors%est_err_pmax = factor*abs(coarse%pmax - fine%pmax)/fine%pmax
-            normal_errors%est_err_area = factor*abs(coarse%area - fine%area)/fine%area
-        end if
-    end subroutine richardson_estimate
 
     !> Whether there is a solution to estimate the errors of.
     pure subroutine check_solution(curve, compliance, strips, result, status)

@@ -15,10 +15,9 @@ module faststrip_normal_estimate_samples
     !> Strips looked at together.
     !> Tuned [strips]. Origin: capacity, on the stack.
     integer, parameter :: block = 64
-    !> Most points sampled together: both edges of each strip of a block, and two places beside each
-    !> end of a patch.
+    !> Most points sampled together: both edges of each strip of a block.
     !> Given: of one strip at most.
-    integer, parameter :: most_samples = 6*block
+    integer, parameter :: most_samples = 2*block
 
 contains
 

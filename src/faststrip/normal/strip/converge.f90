@@ -39,9 +39,6 @@ module faststrip_normal_strip_converge
     ! Tuned [strip widths]: edges that belong elsewhere by less stay. Origin: the penetration
     ! changes by less than 1e-6.
     real(wp), parameter :: edge_tolerance = 2.0e-3_wp
-    ! Tuned [1]: the same where they were renewed near the solution, over it. Origin: chosen for the
-    ! time: mostly they move by less.
-    real(wp), parameter :: after_look = 5.0_wp
     ! Tuned [steps; evaluations; factors]: most of each. Origin: safeguards: some ten, three and two
     ! do; three evaluations more than those with which edges follow the gap.
     integer, parameter :: max_steps = 60, max_evaluations = 11, max_factorings = 25
@@ -74,18 +71,12 @@ module faststrip_normal_strip_converge
     ! Tuned [1]. Origin: chosen for the time: factors cost some steps; with .25 warm ones take less,
     ! cold ones more.
     real(wp), parameter :: slow = 0.35_wp ! steps that shrink less ask for new factors
-    ! Tuned [1]: a first step this large with old factors asks for new ones. Origin: as above;
-    ! without it fewer hostile gaps are `ok`.
-    real(wp), parameter :: far = 0.5_wp
-    ! Tuned [1]: part of a step with new factors that does not shrink; least part of any. Origin:
-    ! chosen against steps back and forth; strips want to leave.
-    real(wp), parameter :: damping = 0.5_wp, least_scale = 0.02_wp
-    ! Tuned [1]: Largest steps of the logarithm of a length and of the penetration over itself, and
-    ! of an end over the width of its patch. Origin: convergence from afar.
-    real(wp), parameter :: max_log_step = 0.5_wp, max_end_step = 0.15_wp
-    ! Tuned [1]: most of its pressure that a step takes from a strip, ends free. Origin: convergence
-    ! from afar.
-    real(wp), parameter :: most_taken = 0.8_wp
+    ! Tuned [1]: least part of a step that is taken. Origin: below strips want to leave.
+    real(wp), parameter :: least_scale = 0.05_wp
+    ! Tuned [1]: Largest steps of the logarithm of a length, of the penetration over itself, and,
+    ! where ends move, of an end over the width of its patch and of what a strip loses of its
+    ! pressure. Origin: convergence from afar.
+    real(wp), parameter :: most_change = 0.5_wp
 
     !> Where Newton's method stands.
     type :: course_t
@@ -94,10 +85,8 @@ module faststrip_normal_strip_converge
         integer :: m = 0               ! equations
         integer :: evaluations = 0, factored = 0 ! so far
         logical :: again = .false.     ! are coefficients to be evaluated anew?
-        logical :: looked = .false.    ! were edges looked at near the solution?
         real(wp) :: moved = 0.0_wp     ! edges that belong elsewhere, strip widths
-        logical :: fresh = .false., was_fresh = .false. ! are factors those of this step, the last
-                                                        ! that was taken?
+        logical :: fresh = .false.     ! are factors those of this step?
         real(wp) :: size_now = 0.0_wp, size_before = beyond_all ! largest component of the steps
         real(wp) :: second = 1.0_wp    ! error of a solution over the square of what has changed
         integer :: past = 0            ! steps so far by the same factors and coefficients
@@ -234,8 +223,7 @@ contains
             course%size_now = maxval(abs(newton%step(:course%m)))
             possible = course%size_now < huge(1.0_wp)
             if (.not. possible .or. course%fresh) return
-            if (course%size_now > slow*course%size_before .or. course%size_now > far) &
-                newton%kept = .false.
+            if (course%size_now > slow*course%size_before) newton%kept = .false.
         end associate
     end subroutine find_step
 
@@ -292,18 +280,12 @@ contains
         if (left <= finest*tolerance .and. error <= tolerance) then
             if (course%follows) call look_for_edges(workspace, patches, course%moved)
             ! Where a jump of curvature enters the patch edges move on after a look.
-            course%again = course%moved > merge(after_look, 1.0_wp, course%looked)*edge_tolerance
+            course%again = course%moved > edge_tolerance
             if (.not. course%again) outcome = converged
             return
         end if
         course%again = error > tolerance &
                        .and. left <= max(finest*change**2, near*sqrt(tolerance/course%second))
-        if (.not. course%follows .or. course%looked .or. course%again) return
-        ! Near enough for edges that stay: do they belong elsewhere?
-        if (left > 0.25_wp*edge_tolerance) return
-        course%looked = .true.
-        call look_for_edges(workspace, patches, course%moved)
-        course%again = course%moved > edge_tolerance
     end subroutine judge
 
     !> The larger of both factors of what has changed.
@@ -368,35 +350,23 @@ contains
         type(patches_t), intent(in) :: patches
         type(course_t), intent(inout) :: course
 
-        real(wp) :: move
+        real(wp) :: change
         integer :: n, e
 
         n = workspace%strips%n
         associate (step => workspace%newton%step, scale => course%scale)
-            ! Steps that do not shrink with new factors either go back and forth.
-            scale = merge(damping, 1.0_wp, course%fresh .and. course%was_fresh &
-                                           .and. course%size_now > slow*course%size_before)
-            course%was_fresh = course%fresh
-            scale = min(scale, limit_of(step(n + 1:2*n + 1), max_log_step))
+            change = maxval(abs(step(n + 1:2*n + 1)))
             do e = 1, size(ends)
                 associate (patch => patches%at(ends(e)%patch))
-                    move = abs(step(2*n + 1 + e))/(patch%y_to - patch%y_from) &
-                           *end_width(workspace, ends(e)%strip)
-                    scale = scale*min(1.0_wp, max_end_step/max(max_end_step, scale*move))
+                    change = max(change, abs(step(2*n + 1 + e))/(patch%y_to - patch%y_from) &
+                                         *end_width(workspace, ends(e)%strip))
                 end associate
             end do
-            if (course%held) return
-            move = maxval(-course%p_scale*step(:n)/workspace%strips%p0(:n))
-            scale = min(scale, most_taken/max(most_taken, move))
+            if (.not. course%held) &
+                change = max(change, maxval(-course%p_scale*step(:n)/workspace%strips%p0(:n)))
+            scale = most_change/max(most_change, change)
         end associate
     end subroutine limit_step
-
-    !> The factor that keeps steps within a limit.
-    pure real(wp) function limit_of(step, largest)
-        real(wp), intent(in) :: step(:), largest
-
-        limit_of = largest/max(largest, maxval(abs(step)))
-    end function limit_of
 
     !> Keep the last factors only if they are of a system of the same kind.
     pure subroutine check_kept(newton, demand, patches, ends)

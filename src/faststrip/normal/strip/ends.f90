@@ -2,29 +2,25 @@
 !> that the deformed surfaces have closed join in.
 module faststrip_normal_strip_ends
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, valley_below
-    use faststrip_normal_overlap, only: overlap_t, most_overlaps, find_overlaps, &
-                                             stays_apart, overlap_depth
-    use faststrip_normal_strips, only: contact_strips_t
+    use faststrip_geometry_gap_curve, only: gap_at
+    use faststrip_normal_overlap, only: overlap_t, most_overlaps, find_overlaps
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
                                               take_in, sort_patches, join_met_patches
     use faststrip_normal_strip_state, only: strip_workspace_t, flattest
     implicit none
     private
 
-    public :: move_ends, close_overlaps, overlap_left, end_step, end_width
+    public :: move_ends, close_overlaps, end_step, end_width
 
-    !> How far an end may be extrapolated, inwards and outwards.
+    !> How far an end may be extrapolated outwards.
     !> Tuned [strip widths]. Origin: safeguard: an end moves no farther in a pass.
-    real(wp), parameter :: farthest_in = -1.0_wp, farthest_out = 2.0_wp
+    real(wp), parameter :: farthest_out = 2.0_wp
 
     ! Tuned [passes]. Origin: chosen against ends that swing.
     integer, parameter :: damped_pass = 12   ! from this pass on the ends move by damping only
     ! Tuned [1]: Part of a step that an end is moved from then on. Origin: chosen against ends that
     ! swing.
     real(wp), parameter :: damping = 0.6_wp
-    ! Tuned [1]. Origin: a round contact between plane strain and a needle.
-    real(wp), parameter :: plane_strain_share = 0.6_wp ! pressure of a new patch over a long one's
 
 contains
 
@@ -111,7 +107,7 @@ contains
         width = workspace%strips%y_right(k) - workspace%strips%y_left(k)
     end function end_width
 
-    !> How far an end should move outwards, in units of `end_width`, between -1 and 2.
+    !> How far an end should move outwards, in units of `end_width`, at most by 2.
     pure real(wp) function end_step(workspace, k, inward) result(step)
         type(strip_workspace_t), intent(in) :: workspace
         integer, intent(in) :: k      !! the end strip
@@ -145,7 +141,7 @@ contains
             ! rules agree where the quadratic has a double root.
             s = d2/(sqrt(q(2)) - 1.0_wp)
         end if
-        step = max(farthest_in, min(farthest_out, s - 0.5_wp))
+        step = min(farthest_out, s - 0.5_wp)
     end function end_step
 
     !> Find places outside the patches where the deformed surfaces would overlap, and patches that
@@ -182,101 +178,12 @@ contains
                 call gap_at(workspace%curve, 0.5_wp*(seed%y_from + seed%y_to), h, inv2r)
                 inv2r = max(inv2r, flattest)
                 seed%seed_length = sqrt(one%deepest/inv2r)
-                seed%seed_pressure = plane_strain_share*2.0_wp*inv2r*seed%seed_length &
-                                     /(pi*compliance)
+                ! That of a wide strip.
+                seed%seed_pressure = 2.0_wp*inv2r*seed%seed_length/(pi*compliance)
                 call take_in(seed, one%low, one%high, one%step, patches, changed)
             end associate
         end do
         call sort_patches(patches)
         call join_met_patches(may_merge, patches, changed)
     end subroutine close_overlaps
-
-    !> Largest overlap of the deformed surfaces outside the patches, over the penetration, where the
-    !> scan of `close_overlaps` may miss it: in the gap's valleys, at the ends of its points, and
-    !> next
-    !> to the ends of the patches.
-    pure real(wp) function overlap_left(curve, compliance, penetration, strips) result(largest)
-        type(gap_curve_t), intent(in) :: curve       !! the gap
-        real(wp), intent(in) :: compliance           !! H of eq. (4), 1/MPa
-        real(wp), intent(in) :: penetration          !! above the lowest height, mm
-        type(contact_strips_t), intent(in) :: strips !! a solution
-
-        ! Distances from an end, in widths of the end strip
-        ! Tuned [strip widths]. Origin: chosen.
-        real(wp), parameter :: beside(6) = [0.5_wp, 0.7_wp, 0.9_wp, 1.2_wp, 1.6_wp, 2.2_wp]
-        ! Tuned [1]. Origin: chosen.
-        real(wp), parameter :: share = 0.5_wp ! of what counts there: few strips leave some
-        real(wp) :: depth, width
-        integer :: j, k
-
-        ! A valley may be cut off by the end of the points.
-        depth = max(overlap_outside(curve, compliance, penetration, strips, curve%y(1)), &
-                    overlap_outside(curve, compliance, penetration, strips, curve%y(curve%n)))
-        ! Higher ones cannot overlap.
-        j = 1
-        do
-            j = valley_below(curve, curve%h_lowest + penetration, j + 1)
-            if (j > curve%n_pieces) exit
-            depth = max(depth, overlap_outside(curve, compliance, penetration, strips, &
-                                               curve%y_node(j)))
-        end do
-        do k = 1, strips%n
-            width = strips%y_right(k) - strips%y_left(k)
-            if (is_end(strips, k, k - 1)) depth = max(depth, beside_end(strips%y_left(k), -width))
-            if (is_end(strips, k, k + 1)) depth = max(depth, beside_end(strips%y_right(k), width))
-        end do
-        largest = depth/penetration
-
-    contains
-
-        !> Overlap beside an end of a patch, so far as it counts, mm.
-        pure real(wp) function beside_end(y, outwards)
-            real(wp), intent(in) :: y        ! the end, mm
-            real(wp), intent(in) :: outwards ! width of the end strip, negative to the left, mm
-
-            real(wp) :: overlap, at
-            integer :: i, n
-            logical :: overlaps
-
-            beside_end = 0.0_wp
-            overlaps = .true.
-            do i = 1, size(beside)
-                at = y + beside(i)*outwards
-                overlap = overlap_outside(curve, compliance, penetration, strips, at)
-                beside_end = max(beside_end, share*overlap)
-                n = size(beside) - i
-                if (overlaps .and. overlap <= 0.0_wp .and. n > 0) then
-                    if (stays_apart(curve, at, (beside(size(beside)) - beside(i))*outwards/n, n)) &
-                        exit
-                end if
-                overlaps = overlap > 0.0_wp
-            end do
-        end function beside_end
-    end function overlap_left
-
-    !> Does a patch end between two neighbouring strips?
-    pure logical function is_end(strips, k, neighbour)
-        type(contact_strips_t), intent(in) :: strips
-        integer, intent(in) :: k, neighbour
-
-        is_end = neighbour < 1 .or. neighbour > strips%n
-        if (.not. is_end) is_end = strips%patch(k) /= strips%patch(neighbour)
-    end function is_end
-
-    !> Overlap at a point, mm; zero in a patch and where the gap has no points.
-    pure real(wp) function overlap_outside(curve, compliance, penetration, strips, y) result(depth)
-        type(gap_curve_t), intent(in) :: curve
-        real(wp), intent(in) :: compliance, penetration, y
-        type(contact_strips_t), intent(in) :: strips
-
-        integer :: n
-
-        depth = 0.0_wp
-        n = strips%n
-        if (y < curve%y(1) .or. y > curve%y(curve%n)) return
-        if (any(strips%y_left(:n) <= y .and. strips%y_right(:n) >= y)) return
-        depth = overlap_depth(curve, compliance, penetration, strips%y_left(:n), &
-                              strips%y_right(:n), strips%p0(:n), strips%half_length(:n), y)
-    end function overlap_outside
-
 end module faststrip_normal_strip_ends

@@ -31,8 +31,6 @@ module faststrip_normal_strip_level
     ! Tuned [passes]: after so many none of which was better the best stands, if it may. Origin:
     ! chosen for the time: ends that come and go do so without rest.
     integer, parameter :: max_idle_passes = 4
-    ! Tuned [splits]. Origin: chosen; what splits more often ends in cells.
-    integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     ! Work of all ways together: so much, and so many steps of all strips.
     ! Tuned [influence coefficients; steps]. Origin: chosen: bounds the time of gaps that do not
     ! converge.
@@ -45,8 +43,6 @@ module faststrip_normal_strip_level
     ! other: what is left then is far below what the ends' moves change.
     ! Tuned [1]. Origin: as said with it.
     real(wp), parameter :: far_tolerance = 0.1_wp, near_tolerance = 1.0e-2_wp
-    ! Tuned [1]. Origin: safeguard: above rounding.
-    real(wp), parameter :: sliver = 1.0e-10_wp ! of the gap's range: too narrow for a patch
 
     !> What is asked for.
     type :: level_t
@@ -60,7 +56,6 @@ module faststrip_normal_strip_level
     type :: attempt_t
         type(patches_t) :: patches        !! those the next pass starts with
         real(wp) :: penetration = 0.0_wp  !! last found, above the lowest height, mm
-        integer :: splits = 0             !! patches split by strips that left
         logical :: in_doubt = .false.     !! do patches split and join, so that cells found them?
         logical :: converged = .false.    !! is there a pass that stands?
         logical :: is_remembered = .true. !! are its strips those that the workspace remembers?
@@ -215,21 +210,10 @@ contains
         type(level_t), intent(in) :: level
         type(attempt_t), intent(inout) :: attempt
 
-        integer :: before(size(attempt%patches%at))
-
         call free_ends(attempt%patches)
-        attempt%splits = 0
         attempt%converged = .false.
         attempt%is_remembered = .true.
-        before = attempt%patches%at%n_strips
         call share_strips(level%strips_per_patch, attempt%patches)
-        if (.not. level%near) return
-        ! A small patch keeps its strips where one more or less would only cost a new Jacobian.
-        associate (n => attempt%patches%n)
-            if (maxval(before(:n)) == level%strips_per_patch &
-                .and. all(abs(before(:n) - attempt%patches%at(:n)%n_strips) <= 1)) &
-                attempt%patches%at(:n)%n_strips = before(:n)
-        end associate
     end subroutine begin
 
     !> Cut the patches into strips, if strips and work are left.
@@ -241,11 +225,9 @@ contains
         type(attempt_t), intent(inout) :: attempt
         logical, intent(out) :: possible
 
-        real(wp) :: narrowest
         integer :: n
 
-        narrowest = sliver*(workspace%curve%y(workspace%curve%n) - workspace%curve%y(1))
-        call drop_slivers(narrowest, attempt%patches)
+        call drop_slivers(attempt%patches)
         possible = attempt%patches%n > 0
         if (.not. possible) return
         call position_strips(workspace, attempt%patches, n)
@@ -301,13 +283,13 @@ contains
         type(strip_workspace_t), intent(in) :: workspace
         type(level_t), intent(in) :: level
         type(attempt_t), intent(inout) :: attempt
-        logical, intent(out) :: possible ! is anything left, and has it not split too often?
+        logical, intent(out) :: possible ! is anything left?
 
         associate (now => workspace%strips)
             call cut_leaving_strips(now%y_left(:now%n), now%y_right(:now%n), now%leaves(:now%n), &
-                                    attempt%patches, attempt%splits)
+                                    attempt%patches)
         end associate
-        possible = attempt%patches%n > 0 .and. attempt%splits <= max_splits_at_all
+        possible = attempt%patches%n > 0
         if (possible) call share_strips(level%strips_per_patch, attempt%patches)
     end subroutine cut
 

@@ -24,9 +24,6 @@ module faststrip_normal_strip_patches
     ! Tuned [spacings]: width of an overlap from which it moves the end of the patch it touches.
     ! Origin: chosen: more than one place.
     real(wp), parameter :: wide_seed = 1.5_wp
-    ! Tuned [1]: width of a new patch over that of the overlap. Origin: a Hertz contact is
-    ! 1/sqrt(2) times as wide as what overlaps.
-    real(wp), parameter :: seed_share = 0.7_wp
 
     !> One patch while its ends are sought.
     type :: patch_t
@@ -145,7 +142,6 @@ contains
         type(patches_t), intent(inout) :: patches !! extended, or with one more at the end
         logical, intent(inout) :: changed    !! set if there is anything to solve anew
 
-        real(wp) :: middle, half
         integer :: p
         logical :: touches
 
@@ -174,10 +170,6 @@ contains
         changed = .true.
         patches%n = patches%n + 1
         patches%at(patches%n) = seed
-        middle = 0.5_wp*(seed%y_from + seed%y_to)
-        half = 0.5_wp*seed_share*(seed%y_to - seed%y_from)
-        patches%at(patches%n)%y_from = middle - half
-        patches%at(patches%n)%y_to = middle + half
     end subroutine take_in
 
     !> Put the patches in the order of y.
@@ -233,16 +225,14 @@ contains
         if (n > 0) patches%at(n)%meets_next = .false.
     end subroutine join_met_patches
 
-    !> Cut strips that leave off their patch; one inside splits it, a patch of none is dropped. A
-    !> piece of a patch that shares its other end with a neighbour becomes part of that.
-    pure subroutine cut_leaving_strips(y_left, y_right, leaves, patches, splits)
+    !> Cut strips that leave off their patch; one inside splits it, a patch of none is dropped.
+    pure subroutine cut_leaving_strips(y_left, y_right, leaves, patches)
         real(wp), intent(in) :: y_left(:), y_right(:) !! edges of all strips, mm
         logical, intent(in) :: leaves(:)              !! strips to be cut off
         type(patches_t), intent(inout) :: patches     !! cut
-        integer, intent(inout) :: splits              !! increased by the patches split
 
         type(patches_t) :: cut
-        integer :: p, first, last, i, from, origin(max_patches)
+        integer :: p, first, last, i, from
 
         cut%n = 0
         last = 0
@@ -257,67 +247,29 @@ contains
                         cycle
                     end if
                 end if
-                if (from == 0) cycle
-                if (cut%n < max_patches) then
-                    if (cut%n > 0) then
-                        if (cut%at(cut%n)%y_from >= patches%at(p)%y_from) splits = splits + 1
-                    end if
+                if (from > 0 .and. cut%n < max_patches) then
                     cut%n = cut%n + 1
-                    cut%at(cut%n) = patches%at(p)
-                    origin(cut%n) = p
-                    cut%at(cut%n)%y_from = y_left(from)
-                    cut%at(cut%n)%y_to = y_right(i - 1)
-                    cut%at(cut%n)%n_strips = i - from
-                    cut%at(cut%n)%meets_next = patches%at(p)%meets_next .and. i > last
-                    if (from > first) then
-                        cut%at(cut%n)%too_far_from = patches%at(p)%y_from
-                    end if
-                    if (i <= last) then
-                        cut%at(cut%n)%too_far_to = patches%at(p)%y_to
-                    end if
+                    associate (piece => cut%at(cut%n))
+                        piece = patches%at(p)
+                        piece%y_from = y_left(from)
+                        piece%y_to = y_right(i - 1)
+                        piece%n_strips = i - from
+                        if (from > first) piece%too_far_from = patches%at(p)%y_from
+                        if (i <= last) piece%too_far_to = patches%at(p)%y_to
+                    end associate
                 end if
                 from = 0
             end do
         end do
-        call give_pieces(origin, cut)
+        do p = 1, cut%n
+            if (p == cut%n) then
+                cut%at(p)%meets_next = .false.
+            else if (cut%at(p)%meets_next) then
+                cut%at(p)%meets_next = cut%at(p + 1)%y_from <= cut%at(p)%y_to
+            end if
+        end do
         patches = cut
     end subroutine cut_leaving_strips
-
-    !> Give pieces of patches to the neighbours they share an end with, and forget ends that are
-    !> shared no longer.
-    pure subroutine give_pieces(origin, cut)
-        integer, intent(in) :: origin(:)      ! the patch each is of
-        type(patches_t), intent(inout) :: cut ! those left
-
-        type(patches_t) :: given
-        integer :: p, n, before
-
-        given%n = 0
-        before = 0
-        do p = 1, cut%n
-            n = given%n
-            if (n > 0) then
-                if (given%at(n)%meets_next) then
-                    given%at(n)%meets_next = cut%at(p)%y_from <= given%at(n)%y_to
-                    if (given%at(n)%meets_next &
-                        .and. (count(origin(:cut%n) == before) > 1 &
-                               .or. count(origin(:cut%n) == origin(p)) > 1)) then
-                        given%at(n)%y_to = cut%at(p)%y_to
-                        given%at(n)%too_far_to = cut%at(p)%too_far_to
-                        given%at(n)%n_strips = given%at(n)%n_strips + cut%at(p)%n_strips
-                        given%at(n)%meets_next = cut%at(p)%meets_next
-                        before = origin(p)
-                        cycle
-                    end if
-                end if
-            end if
-            given%n = n + 1
-            given%at(n + 1) = cut%at(p)
-            before = origin(p)
-        end do
-        if (given%n > 0) given%at(given%n)%meets_next = .false.
-        cut = given
-    end subroutine give_pieces
 
     !> Forget how far out ends were too far: everything else has changed.
     pure subroutine free_ends(patches)
@@ -349,15 +301,14 @@ contains
     end subroutine mirror_patches
 
     !> Drop patches that have shrunk to nothing.
-    pure subroutine drop_slivers(narrowest, patches)
-        real(wp), intent(in) :: narrowest         !! least width of a patch, mm
+    pure subroutine drop_slivers(patches)
         type(patches_t), intent(inout) :: patches !! the others stay
 
         integer :: p, n
 
         n = 0
         do p = 1, patches%n
-            if (patches%at(p)%y_to - patches%at(p)%y_from < narrowest) then
+            if (patches%at(p)%y_to <= patches%at(p)%y_from) then
                 if (n > 0) patches%at(n)%meets_next = .false.
                 cycle
             end if

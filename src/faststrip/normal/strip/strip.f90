@@ -22,11 +22,10 @@ module faststrip_normal_strip
                                      st_overlap_left, st_more_strips, st_workspace_too_small, &
                                      st_no_convergence
     use faststrip_base_material, only: check_compliance
-    use faststrip_normal_overlap, only: named_overlap
+    use faststrip_normal_overlap, only: named_overlap, overlap_outside
     use faststrip_normal_limitations, only: check_curvature, check_depth, check_lowest, &
                                             name_limitations, name_steps
     use faststrip_normal_strips, only: contact_strips_t, mirror_strips
-    use faststrip_normal_strip_ends, only: overlap_left
     use faststrip_normal_strip_level, only: solve_near
     use faststrip_normal_strip_levels, only: strip_options_t, strips_auto, strips_auto_most, &
                                              solve_by_levels
@@ -184,7 +183,7 @@ contains
         end if
         if (is_error(status) .or. options%stays) return
         penetration = result%penetration - workspace%curve%h_lowest
-        if (overlap_left(workspace%curve, compliance, penetration/result%correction, strips) &
+        if (overlap_outside(workspace%curve, compliance, penetration/result%correction, strips) &
             > named_overlap) &
             call add_limitation(status, st_overlap_left, 'surfaces overlap outside the patches ' &
                                 //'by more than 1 % of the penetration: a rough gap, or one ' &
