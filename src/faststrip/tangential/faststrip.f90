@@ -435,9 +435,9 @@ contains
                              pi*ellipse%a*ellipse%b*part(4)]
     end subroutine add_missing
 
-    !> Add what is missing to the forces of a patch, of which no more than mu N is left, and to its
-    !> stick, which is no less than nothing and no more than all (S10); to the forces of its strips
-    !> and elements in proportion to their loads.
+    !> Add what is missing to the forces of a patch, of which no more than mu N is left and which
+    !> take no power from where they have none, and to its stick, which is no less than nothing and
+    !> no more than all (S10); to the forces of its strips and elements as to their loads.
     pure subroutine correct(strips, first, last, rolling, friction, before, missing, &
                             first_element, sums, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
@@ -451,7 +451,7 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
-        real(wp) :: force(2), change(2), load, bound, limit, place
+        real(wp) :: force(2), change(2), load, bound, limit, place, moment, pressed
         integer :: k
 
         load = 0.0_wp
@@ -469,13 +469,17 @@ contains
             if (falls(friction)) limit = max(bound, norm2(force))
             change = force + missing(:2)
             if (norm2(change) > limit) change = change*(limit/norm2(change))
+            ! At the mean of the strips' places.
+            place = place/load
+            moment = result%mz - before%result%mz + missing(3) + place*(change(2) - force(2))
+            pressed = sums%pressed - before%pressed &
+                      - place*(change(2) - force(2))*rolling%plane%cphi
+            call feed_nothing(rolling%creepage, pressed, change, moment)
             change = change - force
             result%fx = result%fx + change(1)
             result%fy = result%fy + change(2)
-            ! At the mean of the strips' places.
-            place = place/load
-            result%mz = result%mz + missing(3) + place*change(2)
-            sums%pressed = sums%pressed - place*change(2)*rolling%plane%cphi
+            result%mz = before%result%mz + moment
+            sums%pressed = before%pressed + pressed
         end associate
         sums%stuck = min(max(sums%stuck + missing(4), before%stuck), &
                          before%stuck + sums%covered - before%covered)
@@ -489,6 +493,23 @@ contains
             end associate
         end do
     end subroutine correct
+
+    !> A contact takes power out. Where force or moment of a patch feeds more in than the other
+    !> takes out, as much of it goes.
+    pure subroutine feed_nothing(creepage, pressed, force, moment)
+        type(creepage_t), intent(in) :: creepage !! that the patch sees
+        real(wp), intent(in) :: pressed          !! what the slip by pressures feeds in, N
+        real(wp), intent(inout) :: force(2)      !! N
+        real(wp), intent(inout) :: moment        !! N mm
+
+        real(wp) :: fed(2), share
+
+        fed = [force(1)*creepage%cksi + force(2)*creepage%ceta, moment*creepage%cphi]
+        if (sum(fed) + pressed <= 0.0_wp .or. all(fed <= 0.0_wp)) return
+        share = max(1.0_wp - (sum(fed) + pressed)/sum(max(fed, 0.0_wp)), 0.0_wp)
+        if (fed(1) > 0.0_wp) force = share*force
+        if (fed(2) > 0.0_wp) moment = share*moment
+    end subroutine feed_nothing
 
     !> Add forces to the elements of a patch in proportion to their loads and friction; where they
     !> slide, the slip turns with the traction.

@@ -39,6 +39,9 @@ module faststrip_normal_strip_converge
     ! Tuned [strip widths]: edges that belong elsewhere by less stay. Origin: the penetration
     ! changes by less than 1e-6.
     real(wp), parameter :: edge_tolerance = 2.0e-3_wp
+    ! Tuned [1]: the same where they were looked at near the solution, over it. Origin: chosen for
+    ! the time: mostly they move by less.
+    real(wp), parameter :: after_look = 5.0_wp
     ! Tuned [steps; evaluations; factors]: most of each. Origin: safeguards: some ten, three and two
     ! do; three evaluations more than those with which edges follow the gap.
     integer, parameter :: max_steps = 60, max_evaluations = 11, max_factorings = 25
@@ -86,6 +89,7 @@ module faststrip_normal_strip_converge
         integer :: evaluations = 0, factored = 0 ! so far
         logical :: again = .false.     ! are coefficients to be evaluated anew?
         real(wp) :: moved = 0.0_wp     ! edges that belong elsewhere, strip widths
+        logical :: looked = .false.    ! were edges looked at near the solution?
         logical :: fresh = .false.     ! are factors those of this step?
         real(wp) :: size_now = 0.0_wp, size_before = beyond_all ! largest component of the steps
         real(wp) :: second = 1.0_wp    ! error of a solution over the square of what has changed
@@ -280,12 +284,18 @@ contains
         if (left <= finest*tolerance .and. error <= tolerance) then
             if (course%follows) call look_for_edges(workspace, patches, course%moved)
             ! Where a jump of curvature enters the patch edges move on after a look.
-            course%again = course%moved > edge_tolerance
+            course%again = course%moved > merge(after_look, 1.0_wp, course%looked)*edge_tolerance
             if (.not. course%again) outcome = converged
             return
         end if
         course%again = error > tolerance &
                        .and. left <= max(finest*change**2, near*sqrt(tolerance/course%second))
+        if (.not. course%follows .or. course%looked .or. course%again) return
+        ! Near enough for edges that stay: do they belong elsewhere?
+        if (left > 0.25_wp*edge_tolerance) return
+        course%looked = .true.
+        call look_for_edges(workspace, patches, course%moved)
+        course%again = course%moved > edge_tolerance
     end subroutine judge
 
     !> The larger of both factors of what has changed.
