@@ -20,8 +20,6 @@ module faststrip_normal_cells_balance
     integer, parameter :: max_rounds = 60
     ! Tuned [1]: of the penetration: not an overlap. Origin: safeguard: above rounding.
     real(wp), parameter :: open_gap = 4.0e3_wp*epsilon(1.0_wp)
-    ! Tuned [steps]: of the lengths. Origin: safeguard.
-    integer, parameter :: length_steps = 12
     ! Tuned [1]: change of lengths that may be left. Origin: chosen: far below the errors of cells.
     real(wp), parameter :: length_tolerance = 1.0e-3_wp
     ! Tuned [1]: shortest cell over the longest. Origin: safeguard.
@@ -30,17 +28,18 @@ module faststrip_normal_cells_balance
 contains
 
     !> Find them. Nothing is allocated.
-    pure subroutine balance_cells(cells, compliance, demand)
+    pure subroutine balance_cells(cells, compliance, demand, steps)
         type(cells_t), intent(inout) :: cells !! positioned, with a guess of their depth
         real(wp), intent(in) :: compliance    !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand  !! load, or penetration above the lowest height
+        integer, intent(in) :: steps          !! of the lengths, at most
 
         integer :: step, j, n
 
         n = cells%n
         call start_lengths(cells)
         cells%presses(:n) = .true.
-        do step = 1, length_steps
+        do step = 1, steps
             associate (length => cells%half_length(:n))
                 length = max(length, shortest*maxval(length, mask=cells%presses(:n)))
                 do j = 1, n
@@ -48,7 +47,7 @@ contains
                                                  cells%y(:n), cells%influence(:n, j))
                 end do
                 call find_pressing(cells, compliance, demand)
-                if (.not. cells%solved .or. step == length_steps) exit
+                if (.not. cells%solved .or. step == steps) exit
                 call close_tips(cells, compliance)
                 if (all(abs(cells%length(:n) - length) <= length_tolerance*length &
                         .or. .not. cells%presses(:n))) exit
