@@ -1,8 +1,8 @@
 !> Pressures, lengths and penetration of cells.
 !>
 !> The gap closes in the middle of a cell that presses and at its tips. For given lengths pressures
-!> are those of an active set: cells that pull leave and cells that overlap join, all at once. The
-!> tips then ask for other lengths.
+!> are those of an active set: cells that pull leave and cells that overlap join, all at once as
+!> long as they become fewer, then one at a time. The tips then ask for other lengths.
 module faststrip_normal_cells_balance
     use faststrip_base_kinds, only: wp, pi
     use faststrip_influence_row, only: center_influence_column
@@ -16,8 +16,9 @@ module faststrip_normal_cells_balance
 
     public :: balance_cells
 
-    ! Tuned [rounds]: of the active set. Origin: safeguard.
-    integer, parameter :: max_rounds = 60
+    ! Tuned [rounds]: of the active set at once without fewer infeasible cells; of all. Origin:
+    ! chosen against cycling; safeguard.
+    integer, parameter :: max_block_rounds = 3, max_rounds = 60
     ! Tuned [1]: of the penetration: not an overlap. Origin: safeguard: above rounding.
     real(wp), parameter :: open_gap = 4.0e3_wp*epsilon(1.0_wp)
     ! Tuned [1]: change of lengths that may be left. Origin: chosen: far below the errors of cells.
@@ -63,9 +64,11 @@ contains
         type(demand_t), intent(in) :: demand
 
         real(wp) :: carried
-        integer :: rounds, infeasible, i, k, n
+        integer :: rounds, tries, infeasible, fewest, first, i, k, n
 
         n = cells%n
+        fewest = n + 1
+        tries = 0
         do rounds = 1, max_rounds
             if (.not. any(cells%presses(:n))) &
                 cells%presses(minloc(cells%height(:n), dim=1)) = .true.
@@ -73,7 +76,12 @@ contains
             if (.not. cells%solved) return
             call find_infeasible(cells, compliance, infeasible)
             if (infeasible == 0) exit
-            do i = 1, infeasible
+            tries = tries + 1
+            if (infeasible < fewest) tries = 0
+            fewest = min(fewest, infeasible)
+            first = 1
+            if (tries > max_block_rounds) first = infeasible
+            do i = first, infeasible
                 k = cells%at(i)
                 cells%presses(k) = .not. cells%presses(k)
             end do

@@ -31,6 +31,8 @@ module faststrip_normal_strip_level
     ! Tuned [passes]: after so many none of which was better the best stands, if it may. Origin:
     ! chosen for the time: ends that come and go do so without rest.
     integer, parameter :: max_idle_passes = 4
+    ! Tuned [splits]. Origin: chosen; what splits more often ends in cells.
+    integer, parameter :: max_splits_at_all = 8 ! more: this leads nowhere
     ! Work of all ways together: so much, and so many steps of all strips.
     ! Tuned [influence coefficients; steps]. Origin: chosen: bounds the time of gaps that do not
     ! converge.
@@ -56,6 +58,7 @@ module faststrip_normal_strip_level
     type :: attempt_t
         type(patches_t) :: patches        !! those the next pass starts with
         real(wp) :: penetration = 0.0_wp  !! last found, above the lowest height, mm
+        integer :: splits = 0             !! patches split by strips that left
         logical :: in_doubt = .false.     !! do patches split and join, so that cells found them?
         logical :: converged = .false.    !! is there a pass that stands?
         logical :: is_remembered = .true. !! are its strips those that the workspace remembers?
@@ -211,6 +214,7 @@ contains
         type(attempt_t), intent(inout) :: attempt
 
         call free_ends(attempt%patches)
+        attempt%splits = 0
         attempt%converged = .false.
         attempt%is_remembered = .true.
         call share_strips(level%strips_per_patch, attempt%patches)
@@ -283,13 +287,13 @@ contains
         type(strip_workspace_t), intent(in) :: workspace
         type(level_t), intent(in) :: level
         type(attempt_t), intent(inout) :: attempt
-        logical, intent(out) :: possible ! is anything left?
+        logical, intent(out) :: possible ! is anything left, and has it not split too often?
 
         associate (now => workspace%strips)
             call cut_leaving_strips(now%y_left(:now%n), now%y_right(:now%n), now%leaves(:now%n), &
-                                    attempt%patches)
+                                    attempt%patches, attempt%splits)
         end associate
-        possible = attempt%patches%n > 0
+        possible = attempt%patches%n > 0 .and. attempt%splits <= max_splits_at_all
         if (possible) call share_strips(level%strips_per_patch, attempt%patches)
     end subroutine cut
 

@@ -226,13 +226,14 @@ contains
     end subroutine join_met_patches
 
     !> Cut strips that leave off their patch; one inside splits it, a patch of none is dropped.
-    pure subroutine cut_leaving_strips(y_left, y_right, leaves, patches)
+    pure subroutine cut_leaving_strips(y_left, y_right, leaves, patches, splits)
         real(wp), intent(in) :: y_left(:), y_right(:) !! edges of all strips, mm
         logical, intent(in) :: leaves(:)              !! strips to be cut off
         type(patches_t), intent(inout) :: patches     !! cut
+        integer, intent(inout) :: splits              !! increased by the patches split
 
         type(patches_t) :: cut
-        integer :: p, first, last, i, from
+        integer :: p, first, last, i, from, pieces
 
         cut%n = 0
         last = 0
@@ -240,6 +241,7 @@ contains
             first = last + 1
             last = last + patches%at(p)%n_strips
             from = 0
+            pieces = 0
             do i = first, last + 1
                 if (i <= last) then
                     if (.not. leaves(i)) then
@@ -249,6 +251,7 @@ contains
                 end if
                 if (from > 0 .and. cut%n < max_patches) then
                     cut%n = cut%n + 1
+                    pieces = pieces + 1
                     associate (piece => cut%at(cut%n))
                         piece = patches%at(p)
                         piece%y_from = y_left(from)
@@ -260,6 +263,7 @@ contains
                 end if
                 from = 0
             end do
+            splits = splits + max(pieces - 1, 0)
         end do
         do p = 1, cut%n
             if (p == cut%n) then
