@@ -332,12 +332,14 @@ contains
                 return
             end if
             if (level > 1) then
-                call richardson_estimate(coarse, result, 2.0_wp, workspace%curve%h_lowest, &
-                                         workspace%normal_errors)
-                call raise_estimates(workspace%curve, compliance, workspace%grid, &
-                                     workspace%coarse, workspace%normal_errors)
-                workspace%is_estimated = .true.
-                if (options%error_target > 0.0_wp .and. &
+                workspace%is_estimated = result%penetration > workspace%curve%h_lowest
+                if (workspace%is_estimated) then
+                    call richardson_estimate(coarse, result, 2.0_wp, workspace%curve%h_lowest, &
+                                             workspace%normal_errors)
+                    call raise_estimates(workspace%curve, compliance, workspace%grid, &
+                                         workspace%coarse, workspace%normal_errors)
+                end if
+                if (options%error_target > 0.0_wp .and. workspace%is_estimated .and. &
                     max(workspace%normal_errors%est_err_penetration, &
                         workspace%normal_errors%est_err_pmax) <= options%error_target) exit
             end if

@@ -27,6 +27,8 @@ module faststrip_normal_cells
     ! Tuned [1]: length of a cell over that of the undeformed overlap, to begin with. Origin: a
     ! round contact.
     real(wp), parameter :: first_share = 0.7_wp
+    ! Tuned [1]. Origin: safeguard: no cell begins without length.
+    real(wp), parameter :: least_overlap = 0.02_wp ! of the penetration, that gives a cell's length
 
     !> The cells, those that pressed when they lay elsewhere, and what their solution needs.
     type :: cells_t
@@ -186,8 +188,8 @@ contains
         do k = 1, cells%n
             if (cells%n_old == 0) then
                 cells%half_length(k) = first_share &
-                                       *sqrt(max(cells%depth - cells%height(k), 0.0_wp) &
-                                             /cells%inv2r(k))
+                                       *sqrt(max(cells%depth - cells%height(k), &
+                                                 least_overlap*cells%depth)/cells%inv2r(k))
                 cycle
             end if
             i = count(cells%old_y(:cells%n_old) <= cells%y(k))
