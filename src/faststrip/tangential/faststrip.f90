@@ -52,7 +52,9 @@
 !> - **S10** **Correction**, unless the march alone is asked for: what the march misses of the
 !>   forces and the stick of a patch or sub-patch is a smooth function of the creepages, of a/b, of
 !>   Poisson's ratio, of the patch's shape and of how finely it is cut. It was fitted to TANG
-!>   on random contacts and is added (`force_correction`).
+!>   on random contacts and is added (`force_correction`). No more than mu N is left of the force,
+!>   and no power is fed in: of force and moment goes what the other does not take out
+!>   (`fed_in`).
 !> - **S11** **Other patches**, unless the march alone is asked for: the tractions of the other
 !>   patches give a patch creepage and a moment (`patch_coupling`). They are found without it, once
 !>   more with what follows from them, and then the forces.
@@ -436,8 +438,8 @@ contains
     end subroutine add_missing
 
     !> Add what is missing to the forces of a patch, of which no more than mu N is left and which
-    !> take no power from where they have none, and to its stick, which is no less than nothing and
-    !> no more than all (S10); to the forces of its strips and elements as to their loads.
+    !> feed no power in, and to its stick, which is no less than nothing and no more than all (S10);
+    !> to the forces of its strips and elements in proportion to their loads.
     pure subroutine correct(strips, first, last, rolling, friction, before, missing, &
                             first_element, sums, field, per_strip)
         type(contact_strips_t), intent(in) :: strips
@@ -451,14 +453,16 @@ contains
         type(tangential_field_t), intent(inout), optional :: field
         type(strip_forces_t), intent(inout), optional :: per_strip
 
-        real(wp) :: force(2), change(2), load, bound, limit, place, moment, pressed
+        real(wp) :: force(2), change(2), load, bound, limit, x, y, moment, taken(3)
         integer :: k
 
         load = 0.0_wp
-        place = 0.0_wp
+        x = 0.0_wp
+        y = 0.0_wp
         do k = first, last
             load = load + load_of(strips, k)
-            if (strips%has_places) place = place + load_of(strips, k)*strips%x0(k)
+            y = y + load_of(strips, k)*0.5_wp*(strips%y_left(k) + strips%y_right(k))
+            if (strips%has_places) x = x + load_of(strips, k)*strips%x0(k)
         end do
         bound = rolling%mu_in_slip*load
         if (bound <= nothing) return
@@ -470,16 +474,18 @@ contains
             change = force + missing(:2)
             if (norm2(change) > limit) change = change*(limit/norm2(change))
             ! At the mean of the strips' places.
-            place = place/load
-            moment = result%mz - before%result%mz + missing(3) + place*(change(2) - force(2))
-            pressed = sums%pressed - before%pressed &
-                      - place*(change(2) - force(2))*rolling%plane%cphi
-            call feed_nothing(rolling%creepage, pressed, change, moment)
-            change = change - force
+            x = x/load
+            y = y/load
+            associate (c => rolling%creepage)
+                moment = result%mz - before%result%mz + missing(3) - x*force(2) + y*change(1)
+                taken = fed_in([c%cksi - y*c%cphi, c%ceta], c%cphi, sums%pressed &
+                               - before%pressed + x*force(2)*c%cphi, change, moment)
+            end associate
+            change = change - taken(:2) - force
             result%fx = result%fx + change(1)
             result%fy = result%fy + change(2)
-            result%mz = before%result%mz + moment
-            sums%pressed = before%pressed + pressed
+            result%mz = result%mz + missing(3) - taken(3) + x*change(2) + y*taken(1)
+            sums%pressed = sums%pressed - x*change(2)*rolling%plane%cphi
         end associate
         sums%stuck = min(max(sums%stuck + missing(4), before%stuck), &
                          before%stuck + sums%covered - before%covered)
@@ -494,22 +500,28 @@ contains
         end do
     end subroutine correct
 
-    !> A contact takes power out. Where force or moment of a patch feeds more in than the other
-    !> takes out, as much of it goes.
-    pure subroutine feed_nothing(creepage, pressed, force, moment)
-        type(creepage_t), intent(in) :: creepage !! that the patch sees
-        real(wp), intent(in) :: pressed          !! what the slip by pressures feeds in, N
-        real(wp), intent(inout) :: force(2)      !! N
-        real(wp), intent(inout) :: moment        !! N mm
+    !> A contact takes power out. What is too much of a force, along the creepage, and of a moment
+    !> that feed more in than is taken out; N, N, N mm. What slip by pressures feeds in may stay.
+    pure function fed_in(creepage, spin, pressed, force, moment) result(taken)
+        real(wp), intent(in) :: creepage(2) !! that the middle of the patch sees
+        real(wp), intent(in) :: spin        !! rad/mm
+        real(wp), intent(in) :: pressed     !! what slip besides them feeds in, N
+        real(wp), intent(in) :: force(2)    !! N
+        real(wp), intent(in) :: moment      !! about the middle, N mm
+        real(wp) :: taken(3)
 
-        real(wp) :: fed(2), share
+        real(wp) :: fed(2), too_much, size
 
-        fed = [force(1)*creepage%cksi + force(2)*creepage%ceta, moment*creepage%cphi]
-        if (sum(fed) + pressed <= 0.0_wp .or. all(fed <= 0.0_wp)) return
-        share = max(1.0_wp - (sum(fed) + pressed)/sum(max(fed, 0.0_wp)), 0.0_wp)
-        if (fed(1) > 0.0_wp) force = share*force
-        if (fed(2) > 0.0_wp) moment = share*moment
-    end subroutine feed_nothing
+        taken = 0.0_wp
+        fed = [dot_product(force, creepage), moment*spin]
+        too_much = sum(fed) + min(pressed, 0.0_wp)
+        if (too_much <= 0.0_wp) return
+        fed = max(fed, 0.0_wp)
+        fed = fed*(too_much/sum(fed))
+        size = norm2(creepage)
+        if (fed(1) > 0.0_wp) taken(:2) = fed(1)/size*(creepage/size)
+        if (fed(2) > 0.0_wp) taken(3) = fed(2)/spin
+    end function fed_in
 
     !> Add forces to the elements of a patch in proportion to their loads and friction; where they
     !> slide, the slip turns with the traction.

@@ -3,7 +3,7 @@
 !>
 !> The first cells lie where the undeformed gap is below a penetration, the next ones over the
 !> patches of those before and over places where the deformed surfaces overlap: three sets, and up
-!> to two more of an answer. An end lies in its cell, and what is narrower than a cell is not seen.
+!> to two more of fine ones. An end lies in its cell, and what is narrower than a cell is not seen.
 module faststrip_normal_cells_solve
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t
@@ -40,14 +40,14 @@ contains
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: compliance     !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand   !! load, or penetration above the lowest height
-        logical, intent(in) :: are_fine        !! for an answer, or coarse?
-        integer, intent(in) :: room            !! most cells of an answer
+        logical, intent(in) :: are_fine        !! fine enough for an answer, or coarse?
+        integer, intent(in) :: room            !! most cells
         real(wp), intent(in) :: depth          !! a guess of the depth, mm
 
         integer :: set, most, across
         logical :: is_last, at_rest
 
-        most = merge(min(most_cells, room), most_cells, are_fine)
+        most = min(most_cells, room)
         cells%n = 0
         cells%depth = depth
         call first_ranges(cells, curve, depth)

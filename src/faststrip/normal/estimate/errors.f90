@@ -10,8 +10,8 @@
 !>
 !> - `e`: on the centre line at the edges of the strips, the patch's ends among them,
 !> - `m`: at 1/sqrt(2) of the half-length (Chebyshev's point) in the middle of nine strips,
-!> - outside: on the centre line beside the ends, and wherever else a valley is below D
-!>   (`faststrip_normal_overlap`).
+!> - outside: on the centre line beside the ends (by half), at the ends of the points, and wherever
+!>   else a valley is below D (`faststrip_normal_overlap`).
 !>
 !> `e` falls with the number of strips; `m` does not, as all strips take their sections for
 !> semi-ellipses. The first-order error of the penetration is a mean of r (reciprocity: weighted by

@@ -77,7 +77,7 @@ module faststrip_normal_strip_converge
     ! Tuned [1]: least part of a step that is taken. Origin: below strips want to leave.
     real(wp), parameter :: least_scale = 0.05_wp
     ! Tuned [1]: Largest steps of the logarithm of a length, of the penetration over itself, and,
-    ! where ends move, of an end over the width of its patch and of what a strip loses of its
+    ! where ends move, of an end over half the width of its patch and of what a strip loses of its
     ! pressure. Origin: convergence from afar.
     real(wp), parameter :: most_change = 0.5_wp
 
@@ -368,8 +368,9 @@ contains
             change = maxval(abs(step(n + 1:2*n + 1)))
             do e = 1, size(ends)
                 associate (patch => patches%at(ends(e)%patch))
-                    change = max(change, abs(step(2*n + 1 + e))/(patch%y_to - patch%y_from) &
-                                         *end_width(workspace, ends(e)%strip))
+                    change = max(change, 2.0_wp*abs(step(2*n + 1 + e)) &
+                                         *(end_width(workspace, ends(e)%strip) &
+                                           /(patch%y_to - patch%y_from)))
                 end associate
             end do
             if (.not. course%held) &

@@ -28,7 +28,7 @@ contains
         real(wp), intent(in) :: compliance         !! H of eq. (4), 1/MPa
         type(demand_t), intent(in) :: demand       !! load or penetration
         logical, intent(in) :: by_fine             !! fine cells, or coarse ones?
-        integer, intent(in) :: room                !! most fine cells
+        integer, intent(in) :: room                !! most cells
         type(patches_t), intent(inout) :: patches  !! those found, not yet shared into strips
         real(wp), intent(inout) :: penetration     !! above the lowest height: a guess; that found,
                                                    !! mm

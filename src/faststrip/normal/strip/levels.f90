@@ -133,7 +133,7 @@ contains
         real(wp), intent(in) :: compliance
         type(demand_t), intent(in) :: demand
         integer, intent(in) :: way
-        integer, intent(in) :: room   ! most fine cells
+        integer, intent(in) :: room   ! most cells
         type(attempt_t), intent(inout) :: attempt
         logical, intent(out) :: found ! are there patches?
 
