@@ -88,7 +88,8 @@ contains
             if (given(command, '--shift')) &
                 call usage_error('--shift: the case has a gap file', command%name)
         end if
-        call prepare_case(case, option_number(command, '--shift', case%shift), prepared, status)
+        call prepare_case(case, option_number(command, '--shift', case%shift), 0, prepared, &
+                          status)
         if (len(case%gap_file) > 0) call fail_on_error(status)
         call fail_on_error(status, command%arguments(1)%text)
         call hold_case_doubts(case, prepared, command%arguments(1)%text)

@@ -70,7 +70,7 @@ contains
                     call thin_profile(case%bodies%rail%profile, first, &
                                       thinned%bodies%rail%profile, status)
                 if (.not. is_error(status)) &
-                    call prepare_case(thinned, prepared%shift, contact, status)
+                    call prepare_case(thinned, prepared%shift, prepared%listed, contact, status)
                 call choose(contact)
                 if (.not. is_error(status)) call solve(solver, contact, result, status)
                 if (is_error(status)) then

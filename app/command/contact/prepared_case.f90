@@ -26,15 +26,18 @@ module faststrip_command_contact_prepared_case
     type, extends(contact_case_t) :: prepared_case_t
         type(rigid_contact_t) :: rigid_contact !! first point of contact, if there are profiles
         real(wp) :: shift = 0.0_wp             !! lateral shift of the wheelset, mm
+        integer :: listed = 0                  !! its number in the lists of the sweep, 0: none
     end type prepared_case_t
 
 contains
 
     !> Shift the wheelset and make the gap, or read it. A shift the case's sweep lists gets the
     !> load and the creepages listed with it.
-    subroutine prepare_case(case, shift, prepared, status)
+    subroutine prepare_case(case, shift, listed, prepared, status)
         type(case_t), intent(in) :: case               !! a case that was read
         real(wp), intent(in) :: shift                  !! lateral shift, unused with a gap file, mm
+        integer, intent(in) :: listed                  !! number of it in the lists, 0: the first
+                                                       !! one that is as large, if there is any
         type(prepared_case_t), intent(out) :: prepared !! ready to be solved
         type(status_t), intent(out) :: status          !! from the library
 
@@ -42,6 +45,9 @@ contains
 
         call clear_status(status)
         prepared%shift = shift
+        prepared%listed = listed
+        if (listed == 0) &
+            prepared%listed = findloc(abs(case%shifts - shift) < rounding, .true., dim=1)
         prepared%contact_case_t = case%contact_case_t
         if (len(case%gap_file) > 0) then
             call read_gap_file(case%gap_file, prepared%gap, status)
@@ -75,13 +81,12 @@ contains
         type(case_t), intent(in) :: case                 !! that was read
         type(prepared_case_t), intent(inout) :: prepared !! with its shift
 
-        integer :: i
-
-        i = findloc(abs(case%shifts - prepared%shift) < rounding, .true., dim=1)
-        if (i == 0) return
-        if (size(case%shift_loads) > 0) prepared%load = case%shift_loads(i)
-        if (size(case%shift_cksi) > 0) prepared%creepage = creepage_t( &
-            case%shift_cksi(i), case%shift_ceta(i), case%shift_cphi(i))
+        associate (i => prepared%listed)
+            if (i == 0) return
+            if (size(case%shift_loads) > 0) prepared%load = case%shift_loads(i)
+            if (size(case%shift_cksi) > 0) prepared%creepage = creepage_t( &
+                case%shift_cksi(i), case%shift_ceta(i), case%shift_cphi(i))
+        end associate
     end subroutine take_lists
 
     !> Without a contact point there is no contact angle, nor what follows from one.

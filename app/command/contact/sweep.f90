@@ -15,7 +15,8 @@ module faststrip_command_contact_sweep
     use faststrip_command_settings_method_options, only: method_options, method_notes, &
                                                          take_method_options
     use faststrip_command_settings_case_doubts, only: hold_sweep_doubts, count_pressure
-    use faststrip_command_settings_doubts, only: tally_t, hold_tally
+    use faststrip_command_batch_manifest, only: status_counts_t, count_status
+    use faststrip_command_settings_doubts, only: tally_t, hold_tally, hold_limitations
     use faststrip_command_settings_case_file, only: case_t, read_case
     use faststrip_command_contact_prepared_case, only: prepared_case_t, prepare_case
     use faststrip_command_contact_point_spacing, only: point_spacing_t, judge_spacing, name_spacing
@@ -50,6 +51,7 @@ contains
         type(csv_writer_t) :: writer
         type(status_t) :: status, placed, written
         type(tally_t) :: pressures
+        type(status_counts_t) :: counts
         integer :: i, m, n_failed, n_pairs
 
         command%name = 'sweep'
@@ -91,7 +93,7 @@ contains
         n_failed = 0
         do i = 1, size(case%shifts)
             call progress('shifts', i, size(case%shifts))
-            call prepare_case(case, case%shifts(i), prepared, placed)
+            call prepare_case(case, case%shifts(i), i, prepared, placed)
             spacing = point_spacing_t()
             if (.not. is_error(placed)) call judge_spacing(case, prepared, spacing)
             do m = 1, n_pairs
@@ -105,6 +107,7 @@ contains
                 if (.not. is_error(status)) call name_spacing(spacing, status)
                 call put_sweep_row(writer, case, prepared, result, solver%workspace%steps, &
                                    status)
+                call count_status(counts, status%code)
                 if (.not. is_error(status)) &
                     call count_pressure(pressures, result%normal%pmax, 0)
                 if (.not. is_error(status)) &
@@ -125,6 +128,7 @@ contains
         call fail_on_error(written)
         call draw_plot(command)
         call hold_tally(pressures, command%arguments(1)%text)
+        call hold_limitations(counts, command%arguments(1)%text)
         call tell_held()
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
                                     // integer_text(size(case%shifts)*n_pairs) &

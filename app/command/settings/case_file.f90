@@ -6,11 +6,10 @@ module faststrip_command_settings_case_file
     use faststrip_base_text, only: integer_text
     use faststrip_geometry_rigid_contact, only: creepage_set_a, creepage_set_b
     use faststrip_wheelset_types, only: standard_accuracy
-    use faststrip_command_program_files, only: take_input
     use faststrip_command_settings_friction, only: read_friction_group
-    use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, read_group, &
-                                                is_set, number_of, text_of, list_of, beside, &
-                                                refuse, refuse_each
+    use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, need_groups, &
+                                                read_group, is_set, number_of, text_of, list_of, beside, &
+                                                take_file, refuse, refuse_each
     use faststrip_command_settings_methods, only: settings_t, put_setting
     use faststrip_command_settings_profiles, only: bodies_t, read_bodies
     use faststrip_command_settings_table, only: settings, value_t, a_path
@@ -48,8 +47,15 @@ contains
         logical :: from_profiles
 
         call read_case_text(path, .false., content)
-        call read_contact_group(content, case)
-        from_profiles = len(case%gap_file) == 0
+        call read_group(content, 'contact', group)
+        from_profiles = len_trim(text_of(group, 'gap_file', '')) == 0
+        if (from_profiles) then
+            call need_groups(content, [character(len=8) :: 'contact', 'material', 'wheel', &
+                                       'rail', 'motion'])
+        else
+            call need_groups(content, [character(len=8) :: 'material', 'motion'])
+        end if
+        call read_contact_group(group, case)
         call read_settings(content, 'material', case, group)
         call read_bodies(content, from_profiles, .false., case%bodies)
         call read_motion_group(content, from_profiles, case)
@@ -77,8 +83,9 @@ contains
         type(group_t) :: rail
 
         call read_case_text(path, .false., content)
+        call need_groups(content, [character(len=8) :: 'wheel', 'rail'])
         call read_bodies(content, .true., .true., bodies)
-        call read_group(content, 'rail', .true., rail)
+        call read_group(content, 'rail', rail)
         call refuse_each(rail, ['roller_radius_mm'], 'is for contact, sweep and wheelset only')
     end subroutine read_bodies_of
 
@@ -92,7 +99,7 @@ contains
         call read_settings(content, 'thermal', case, group)
         case%asked%temperatures = group%first > 0
         if (.not. case%asked%temperatures .or. case%friction%speed > 0.0_wp) return
-        call read_group(content, 'motion', .true., group)
+        call read_group(content, 'motion', group)
         call refuse(group, 'speed_mm_s', 'must be given with &thermal', '')
     end subroutine read_thermal_group
 
@@ -106,31 +113,28 @@ contains
         type(value_t) :: value
         integer :: i
 
-        call read_group(content, name, name == 'material', group)
+        call read_group(content, name, group)
         do i = 1, size(group%row)
             if (.not. group%value(i)%is_given) cycle
             value = group%value(i)
             if (settings(group%row(i))%kind == a_path) then
                 if (value%text == '') cycle
                 value%text = beside(group%file, value%text)
-                call take_input(value%text)
+                call take_file(group, trim(settings(group%row(i))%key), value%text, '')
             end if
             call put_setting(case, trim(settings(group%row(i))%key), value)
         end do
     end subroutine read_settings
 
-    subroutine read_contact_group(content, case)
-        type(case_text_t), intent(in) :: content
+    subroutine read_contact_group(group, case)
+        type(group_t), intent(in) :: group
         type(case_t), intent(inout) :: case
 
-        type(group_t) :: group
-
-        call read_group(content, 'contact', .true., group)
         case%name = text_of(group, 'name', 'case')
         case%gap_file = trim(text_of(group, 'gap_file', ''))
         if (len(case%gap_file) > 0) then
             case%gap_file = beside(group%file, case%gap_file)
-            call take_input(case%gap_file)
+            call take_file(group, 'gap_file', case%gap_file, '')
         end if
         case%by_load = .not. is_set(group, 'penetration_mm')
         if (case%by_load .eqv. .not. is_set(group, 'load_N')) then
@@ -155,7 +159,7 @@ contains
 
         type(group_t) :: group
 
-        call read_group(content, 'motion', .true., group)
+        call read_group(content, 'motion', group)
         case%creepage%cksi = number_of(group, 'cksi', 0.0_wp)
         case%creepage%ceta = number_of(group, 'ceta', 0.0_wp)
         case%creepage%cphi = number_of(group, 'cphi_rad_per_mm', 0.0_wp)
@@ -183,7 +187,7 @@ contains
 
         type(group_t) :: group
 
-        call read_group(content, 'sweep', .false., group)
+        call read_group(content, 'sweep', group)
         case%shifts = list_of(group, 'shifts_mm')
         case%shift_loads = list_of(group, 'load_N')
         case%shift_cksi = list_of(group, 'cksi')
@@ -200,11 +204,21 @@ contains
         if (max(size(case%shift_cksi), size(case%shift_ceta), size(case%shift_cphi)) == 0) return
         if (case%creepage_by_formula) call refuse(group, 'cksi', &
             'must not be listed with &motion creepage formula', '')
-        call need_as_many('cksi', size(case%shift_cksi))
-        call need_as_many('ceta', size(case%shift_ceta))
-        call need_as_many('cphi_rad_per_mm', size(case%shift_cphi))
+        call take_listed('cksi', case%creepage%cksi, case%shift_cksi)
+        call take_listed('ceta', case%creepage%ceta, case%shift_ceta)
+        call take_listed('cphi_rad_per_mm', case%creepage%cphi, case%shift_cphi)
 
     contains
+
+        !> What is not listed is that of `&motion`.
+        subroutine take_listed(key, usual, list)
+            character(len=*), intent(in) :: key
+            real(wp), intent(in) :: usual
+            real(wp), allocatable, intent(inout) :: list(:)
+
+            if (.not. is_set(group, key)) list = spread(usual, 1, size(case%shifts))
+            call need_as_many(key, size(list))
+        end subroutine take_listed
 
         subroutine need_as_many(key, given)
             character(len=*), intent(in) :: key

@@ -4,14 +4,15 @@ module faststrip_command_settings_doubts
     use, intrinsic :: iso_fortran_env, only: int64
     use faststrip_base_kinds, only: wp
     use faststrip_base_plausible, only: quantities, doubt_about
-    use faststrip_base_status, only: message_length
+    use faststrip_base_status, only: message_length, status_word, first_error
     use faststrip_contact_plausible, only: doubts_t
     use faststrip_command_program_console, only: hold
-    use faststrip_command_batch_manifest, only: number_text_of
+    use faststrip_command_batch_manifest, only: number_text_of, status_counts_t, counted
     implicit none
     private
 
     public :: hold_doubts, hold_value, tally_t, count_doubts, add_tally, hold_tally
+    public :: hold_limitations
 
     !> How many rows have each kind of doubt, and the first of them.
     type :: tally_t
@@ -107,4 +108,25 @@ contains
             call hold(text // ')')
         end do
     end subroutine hold_tally
+
+    !> Keep a line about results with a named limitation: how many there are of each. Errors have
+    !> lines of their own.
+    subroutine hold_limitations(counts, file)
+        type(status_counts_t), intent(in) :: counts !! of all results
+        character(len=*), intent(in) :: file        !! that they stand in
+
+        character(len=:), allocatable :: text
+        integer(int64) :: n
+        integer :: code
+
+        text = ''
+        do code = 1, first_error - 1
+            n = counted(counts, code) - counted(counts, code + 1)
+            if (n > 0) text = text // ', ' // trim(status_word(code)) // ' ' // number_text_of(n)
+        end do
+        if (len(text) == 0) return
+        call hold(number_text_of(counted(counts, 1) - counted(counts, first_error)) // ' of ' // &
+                  number_text_of(counted(counts, 0)) // ' results have a limitation: ' // &
+                  text(3:) // ' (' // file // ')')
+    end subroutine hold_limitations
 end module faststrip_command_settings_doubts

@@ -41,8 +41,8 @@ contains
         real(wp) :: mu_flange
         integer :: at
 
-        call read_group(content, 'friction', .false., group)
-        call read_group(content, 'material', .true., material)
+        call read_group(content, 'friction', group)
+        call read_group(content, 'material', material)
         call read_table(group, from_profiles, law)
         if (.not. is_set(material, 'mu')) then
             if (law%table%n == 0) call refuse(material, 'mu', 'must be given, or &friction ' // &

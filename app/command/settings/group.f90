@@ -21,11 +21,13 @@ module faststrip_command_settings_group
     implicit none
     private
 
-    public :: case_text_t, group_t, read_case_text, read_group, is_set, given_value, number_of
-    public :: text_of, list_of, beside, refuse, refuse_each
+    public :: case_text_t, group_t, read_case_text, need_groups, read_group, is_set, given_value
+    public :: number_of, text_of, list_of, beside, take_file, refuse, refuse_each
 
     ! Tuned [lines]: most of a case file. Origin: capacity: the longest lists take a few hundred.
     integer, parameter :: most_case_lines = 10000
+    ! Tuned [letters]: that names have in common to be told. Origin: chosen: as mu has.
+    integer, parameter :: enough_alike = 2
     ! What names are made of.
     character(len=*), parameter :: word_letters = &
         'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_'
@@ -53,7 +55,7 @@ module faststrip_command_settings_group
 contains
 
     !> Read a case file; ends the program if it is missing, has an unknown group, a group twice or
-    !> one that is not closed.
+    !> one that is not closed, or unknown names, all of which are told.
     subroutine read_case_text(path, has_state, content)
         character(len=*), intent(in) :: path       !! name of the file
         logical, intent(in) :: has_state           !! may it have the group `state`?
@@ -83,7 +85,96 @@ contains
         call close_text(file)
         content%line = content%line(:n)
         call check_groups(content, groups(:size(groups) - merge(0, 1, has_state)))
+        call check_names(content)
     end subroutine read_case_text
+
+    !> End the program if groups are missing, and name all of them.
+    subroutine need_groups(content, names)
+        type(case_text_t), intent(in) :: content !! a case file
+        character(len=*), intent(in) :: names(:) !! lower case, without ampersand
+
+        type(group_t) :: group
+        character(len=:), allocatable :: missing
+        integer :: i, n
+
+        missing = ''
+        n = 0
+        do i = 1, size(names)
+            call start_group(content, trim(names(i)), group)
+            if (group%first > 0) cycle
+            n = n + 1
+            missing = missing // ', &' // trim(names(i))
+        end do
+        if (n > 0) call fail(exit_bad_input, trim(merge('missing groups:', 'missing group: ', &
+                                                        n > 1)) // missing(2:) // ' (' // &
+                             content%file // ')')
+    end subroutine need_groups
+
+    ! A group without its values.
+    subroutine start_group(content, name, group)
+        type(case_text_t), intent(in) :: content
+        character(len=*), intent(in) :: name
+        type(group_t), intent(out) :: group
+
+        group%file = content%file
+        group%name = name
+        group%row = of_group(name)
+        allocate (group%value(size(group%row)))
+        call find_lines(content, group)
+    end subroutine start_group
+
+    ! End the program with all names of all groups that are unknown, and the line of the first.
+    subroutine check_names(content)
+        type(case_text_t), intent(in) :: content
+
+        type(group_t) :: group
+        character(len=:), allocatable :: unknown
+        integer :: i, line
+
+        unknown = ''
+        line = 0
+        do i = 1, size(groups)
+            call start_group(content, trim(groups(i)), group)
+            if (group%first > 0) call find_values(content, group, unknown, line)
+        end do
+        if (line > 0) call refuse_line(content%file, line, unknown(3:), '')
+    end subroutine check_names
+
+    ! The names of a group that begin as another one does; else where all of them are told.
+    function similar_names(group, name) result(words)
+        type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: name
+        character(len=:), allocatable :: words
+
+        character(len=:), allocatable :: key
+        integer :: i, length, longest
+
+        words = ''
+        longest = enough_alike - 1
+        do i = 1, size(group%row)
+            key = trim(settings(group%row(i))%key)
+            length = alike(lower_case(key), lower_case(name))
+            if (length < longest .or. length < enough_alike) cycle
+            if (length > longest) words = ''
+            longest = length
+            words = words // ' or ' // key
+        end do
+        if (len(words) > 0) then
+            words = 'did you mean ' // words(5:) // '?'
+        else
+            words = 'faststrip settings lists those that there are'
+        end if
+    end function similar_names
+
+    ! How many letters two words have in common, from their first one on.
+    pure integer function alike(one, other) result(length)
+        character(len=*), intent(in) :: one, other
+
+        do length = 0, min(len(one), len(other)) - 1
+            if (one(length + 1:length + 1) /= other(length + 1:length + 1)) return
+        end do
+        length = min(len(one), len(other))
+    end function alike
 
     subroutine check_groups(content, known)
         type(case_text_t), intent(in) :: content
@@ -127,34 +218,29 @@ contains
         end subroutine refuse_open
     end subroutine check_groups
 
-    !> Read a group; ends the program if it is missing but required, at an unknown name, at a value
-    !> that the table of settings does not allow and where one is missing that is needed.
-    subroutine read_group(content, name, is_required, group)
+    !> Read a group, if it is there; ends the program at a value that the table of settings does not
+    !> allow and where some are missing that are needed.
+    subroutine read_group(content, name, group)
         type(case_text_t), intent(in) :: content !! a case file
         character(len=*), intent(in) :: name     !! lower case, without ampersand
-        logical, intent(in) :: is_required       !! is its absence an error?
         type(group_t), intent(out) :: group      !! its values
 
-        integer :: i
+        character(len=:), allocatable :: unknown, missing
+        integer :: i, line
 
-        group%file = content%file
-        group%name = name
-        group%row = of_group(name)
-        allocate (group%value(size(group%row)))
-        call find_lines(content, group)
-        if (group%first == 0) then
-            if (is_required) call fail(exit_bad_input, 'missing group: &' // name // ' (' &
-                                       // content%file // ')')
-            return
-        end if
-        call find_values(content, group)
+        call start_group(content, name, group)
+        if (group%first == 0) return
+        call find_values(content, group, unknown, line)
+        missing = ''
         do i = 1, size(group%row)
             if (group%value(i)%is_given) then
                 call take_value(group, i)
             else if (settings(group%row(i))%is_needed) then
-                call refuse(group, trim(settings(group%row(i))%key), 'must be given', '')
+                missing = missing // ' and ' // trim(settings(group%row(i))%key)
             end if
         end do
+        if (len(missing) > 0) call refuse_line(group%file, group%first, '&' // group%name // &
+                                               missing(5:) // ' must be given', '')
     end subroutine read_group
 
     subroutine find_lines(content, group)
@@ -176,10 +262,13 @@ contains
         end do
     end subroutine find_lines
 
-    !> The text of each value of a group, over lines; of a name that stands twice the last.
-    subroutine find_values(content, group)
+    !> The text of each value of a group, over lines; of a name that stands twice the last. Unknown
+    !> names are added to a text.
+    subroutine find_values(content, group, unknown, line_of_first)
         type(case_text_t), intent(in) :: content
         type(group_t), intent(inout) :: group
+        character(len=:), allocatable, intent(inout) :: unknown
+        integer, intent(inout) :: line_of_first ! of the first unknown name, 0: none yet
 
         character(len=:), allocatable :: line, name
         integer :: i, at, row, from, name_at, equals
@@ -194,15 +283,20 @@ contains
                 call add_text(line(from:name_at - 1))
                 if (equals > len(line)) exit
                 name = trim_blanks(line(name_at:equals - 1))
+                from = equals + 1
                 row = find_setting(group%name, name)
-                if (row == 0) call refuse_line(group%file, i, '&' // group%name // &
-                                               ' unknown name: ' // lower_case(name), '')
+                if (row == 0) then
+                    at = -1
+                    unknown = unknown // '; &' // group%name // ' unknown name: ' // name // &
+                              ', ' // similar_names(group, name)
+                    if (line_of_first == 0) line_of_first = i
+                    cycle
+                end if
                 at = findloc(group%row, row, dim=1)
                 group%value(at)%is_given = .true.
                 group%value(at)%line = i
                 group%value(at)%text = ''
                 if (allocated(group%value(at)%list)) deallocate (group%value(at)%list)
-                from = equals + 1
             end do
         end do
 
@@ -215,7 +309,7 @@ contains
 
             text = trim_blanks(part)
             if (i == group%last) text = without_end(text, '/')
-            if (len(text) == 0) return
+            if (len(text) == 0 .or. at < 0) return
             if (at == 0) call refuse_line(group%file, i, '&' // group%name // &
                                           ' must begin with a name', text)
             if (settings(group%row(at))%kind == a_list) then
@@ -429,6 +523,21 @@ contains
         if (len_trim(value) > 0) text = text // ', got ' // trim(value)
         call fail(exit_bad_input, text // ' (' // file // ':' // integer_text(number) // ')')
     end subroutine refuse_line
+
+    !> Take the file that a name of a group is the path of; ends the program if there is none.
+    subroutine take_file(group, key, path, instead)
+        type(group_t), intent(in) :: group       !! a group of a case file
+        character(len=*), intent(in) :: key      !! name in the group
+        character(len=*), intent(in) :: path     !! of the file, as seen from here
+        character(len=*), intent(in) :: instead  !! what may stand there instead; may be empty
+
+        logical :: is_there
+
+        inquire (file=path, exist=is_there)
+        if (.not. is_there) call refuse(group, key, 'must be ' // instead // &
+                                        'a file that is there', path)
+        call take_input(path)
+    end subroutine take_file
 
     !> A path that is relative to the folder of another file.
     pure function beside(file, path) result(resolved)

@@ -13,9 +13,9 @@ module faststrip_command_settings_profiles
     use faststrip_files_profile, only: read_profile, profile_file_t, profile_options_t, &
                                        length_unit, body_wheel, body_rail
     use faststrip_command_program_console, only: fail_on_error, printable, hold
-    use faststrip_command_program_files, only: take_input
     use faststrip_command_settings_group, only: case_text_t, group_t, read_group, is_set, &
-                                                number_of, text_of, beside, refuse, refuse_each
+                                                number_of, text_of, beside, take_file, refuse, &
+                                                refuse_each
     use faststrip_command_settings_table, only: settings, value_t
     implicit none
     private
@@ -57,10 +57,10 @@ contains
 
         bodies%wheel%words = ''
         bodies%rail%words = ''
-        call read_group(content, 'wheel', is_required, wheel)
+        call read_group(content, 'wheel', wheel)
         if (.not. both_sides) call refuse_left(wheel, ['profile_left  ', 'radius_left_mm'])
         if (is_required) call take_wheels(wheel, both_sides, bodies)
-        call read_group(content, 'rail', is_required, rail)
+        call read_group(content, 'rail', rail)
         if (.not. both_sides) call refuse_left(rail, ['profile_left'])
         if (.not. is_required) return
         call take_rails(rail, both_sides, bodies)
@@ -150,7 +150,7 @@ contains
             call make_wheel_profile(shape%name, shape%profile, status)
             call fail_on_error(status)
         case default
-            call read_points(group, options, 0.0_wp, shape)
+            call read_points(group, key, 's1002, cone20, cone40', options, 0.0_wp, shape)
         end select
     end subroutine take_wheel
 
@@ -206,7 +206,7 @@ contains
                 call refuse(group, trim(merge('cant       ', 'inclination', &
                                               is_set(group, 'cant'))), status%message, '')
         case default
-            call read_points(group, options, inclination, shape)
+            call read_points(group, key, 'uic60, 60e1, 54e1', options, inclination, shape)
         end select
     end subroutine take_rail
 
@@ -245,8 +245,9 @@ contains
         call refuse_each(group, keys, 'must not be given for one contact, of the right wheel')
     end subroutine refuse_left
 
-    subroutine read_points(group, options, inclination, shape)
+    subroutine read_points(group, key, names, options, inclination, shape)
         type(group_t), intent(in) :: group
+        character(len=*), intent(in) :: key, names
         type(profile_options_t), intent(in) :: options
         real(wp), intent(in) :: inclination
         type(shape_t), intent(inout) :: shape
@@ -257,7 +258,7 @@ contains
         character(len=:), allocatable :: file
 
         file = beside(group%file, shape%name)
-        call take_input(file)
+        call take_file(group, key, file, names // ' or ')
         call read_profile(file, options, points, status)
         call fail_on_error(status)
         ! Only who measured a rail knows how it stands.

@@ -162,7 +162,8 @@ module faststrip_command_settings_table
                   option='--tape-circle', value_name='MM')]
 
     type(setting_t), parameter :: of_motion(*) = [ &
-        setting_t('motion', 'creepage', a_word, 'as given here, or by formula from the shift', &
+        setting_t('motion', 'creepage', a_word, 'as given here, or by formula: of rigid ' // &
+                  'contact points, `(rR - rL)/(2 r0)`, 0, `-sin(gamma)/r0`', &
                   words='given formula', default='given'), &
         setting_t('motion', 'sign_set', a_word, 'signs of the formula', words='A B', default='B'), &
         setting_t('motion', 'cksi', a_number, 'longitudinal creepage', default='0'), &

@@ -10,8 +10,8 @@ module faststrip_command_wheelset_case
     use faststrip_command_program_console, only: fail_on_error
     use faststrip_command_settings_case_file, only: read_settings, read_thermal_group
     use faststrip_command_settings_friction, only: read_friction_group
-    use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, read_group, &
-                                                is_set, text_of, refuse
+    use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, need_groups, &
+                                                read_group, is_set, text_of, refuse
     use faststrip_command_settings_methods, only: settings_t, in_core
     use faststrip_command_settings_profiles, only: bodies_t, read_bodies
     use faststrip_command_wheelset_states, only: given_state_t
@@ -42,6 +42,7 @@ contains
         type(group_t) :: group
 
         call read_case_text(path, .true., content)
+        call need_groups(content, [character(len=8) :: 'material', 'wheel', 'rail'])
         call read_settings(content, 'material', case, group)
         ! Each contact has its own rolling speed.
         case%friction%speed = 1.0_wp
@@ -53,7 +54,7 @@ contains
         if (is_set(group, 'gap_step_mm')) &
             call refuse(group, 'gap_step_mm', 'must not be given for a wheelset', '')
         case%gap_height_is_given = is_set(group, 'gap_height_mm')
-        call read_group(content, 'state', .false., group)
+        call read_group(content, 'state', group)
         case%has_state = group%first > 0
         if (.not. case%has_state) return
         case%state%side = text_of(group, 'side', case%state%side)

@@ -4,6 +4,7 @@ module faststrip_command_wheelset_states
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
                                      st_bad_argument
+    use faststrip_base_text, only: lower_case
     use faststrip_files_csv, only: csv_table_t, require_column, column_index, cell_text, &
                                    cell_number, refuse_misspelt
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t
@@ -75,7 +76,7 @@ contains
         integer :: i
 
         call clear_status(status)
-        given%side = cell_text(table, row, columns%side)
+        given%side = lower_case(cell_text(table, row, columns%side))
         do i = 1, n_state
             if (columns%number(i) == 0) cycle
             given%is_given(i) = len(cell_text(table, row, columns%number(i))) > 0

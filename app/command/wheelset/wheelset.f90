@@ -25,7 +25,8 @@ module faststrip_command_wheelset
     use faststrip_command_settings_method_options, only: method_options, method_notes, &
                                                          take_method_options
     use faststrip_command_settings_case_doubts, only: count_pressure
-    use faststrip_command_settings_doubts, only: tally_t, hold_tally
+    use faststrip_command_batch_manifest, only: status_counts_t, count_status
+    use faststrip_command_settings_doubts, only: tally_t, hold_tally, hold_limitations
     use faststrip_command_wheelset_doubts, only: hold_wheelset_doubts
     use faststrip_command_wheelset_jump, only: is_jump
     use faststrip_command_wheelset_csv, only: put_wheelset_header, put_wheel, put_failed_state, &
@@ -70,6 +71,7 @@ module faststrip_command_wheelset
         logical :: has_profiles = .false.                !! are there any?
         character(len=:), allocatable :: profiles_of     !! state they are of; empty: not known yet
         type(tally_t) :: pressures                       !! beyond all steel
+        type(status_counts_t) :: counts                  !! of the contacts
         real(wp) :: beside = 0.0_wp                      !! how far away jumps count, mm; 0: not
         type(csv_writer_t) :: writer(size(outputs))
     end type run_t
@@ -171,6 +173,7 @@ contains
             call put_state(run, name_of_case, case%state, 0, status)
             call refuse_absent_profiles(run)
             call hold_tally(run%pressures, command%arguments(1)%text)
+            call hold_limitations(run%counts, command%arguments(1)%text)
             call close_drawn(run)
             call close_outputs(command, outputs, run%writer, shown)
             ! The files are whole also where the one state failed.
@@ -197,8 +200,12 @@ contains
         end do
         call refuse_absent_profiles(run)
         call close_drawn(run)
+        if (run%is_drawn .and. table%n_rows > 1 .and. .not. given(command, '--profiles-of')) &
+            call note('the picture is of the state ' // run%profiles_of // &
+                      '; --profiles-of names another one')
         call close_outputs(command, outputs, run%writer, shown)
         call hold_tally(run%pressures, table%file)
+        call hold_limitations(run%counts, table%file)
         call tell_held()
         if (n_failed > 0) call fail(exit_bad_input, integer_text(n_failed) // ' of ' &
                                     // integer_text(table%n_rows) // ' states failed')
@@ -387,6 +394,7 @@ contains
                                // trim(side_names(side)) // ', contact ' // integer_text(i) &
                                // ': ')
                 if (solution /= 1) cycle
+                call count_status(run%counts, contact%status%code)
                 if (run%wants_strips) then
                     call find_wheel_strips(run%model, run%workspaces(w), result, side, i, &
                                            run%strips, status)

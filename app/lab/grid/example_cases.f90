@@ -27,7 +27,7 @@ contains
         type(status_t) :: status
 
         call read_case(folder // '/' // trim(example_names(i)) // '.nml', case)
-        call prepare_case(case, case%shift, prepared, status)
+        call prepare_case(case, case%shift, 0, prepared, status)
         call fail_on_error(status, trim(example_names(i)))
     end subroutine read_example
 end module faststrip_lab_grid_example_cases

@@ -379,8 +379,8 @@ contains
                           ' points, the file has ' // integer_text(profile%n))
         else
             call set_place_status(status, st_file_format, 'XYPoints must be the number of ' // &
-                                  'points, ' // integer_text(profile%n) // ' (--any-count takes ' &
-                                  // 'them)', integer_text(header%n_points), path, &
+                                  'points, ' // integer_text(profile%n) // ' (--any-count, or ' &
+                                  // 'any_count in a case file, takes them)', integer_text(header%n_points), path, &
                                   header%line_of_count)
         end if
     end subroutine check_count

@@ -132,7 +132,8 @@ contains
         profile%format = 'gensys'
         if (is_rail .and. .not. is_error(status) .and. options%y_sense == 0) &
             call set_place_status(status, st_file_format, 'the sense of y of a GENSYS rail ' &
-                                  // 'must be given (--y-positive-to)', '', path, 0)
+                                  // 'must be given (--y-positive-to, or y_positive_to in a ' // &
+                                  'case file)', '', path, 0)
     end subroutine read_gensys
 
     !> The kind that the end of a name stands for.

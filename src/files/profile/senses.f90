@@ -37,6 +37,10 @@ module faststrip_files_profile_senses
     ! A curve that turns back by more has a point that does not belong there, mm.
     real(wp), parameter :: longest_fold = 2.0_wp
 
+    ! What helps where a file is in another unit.
+    character(len=*), parameter :: unit_remedy = &
+        ' (--unit, or unit in a case file, says in what unit a file is)'
+
 contains
 
     !> Check the points of a profile, in its final frame.
@@ -100,15 +104,15 @@ contains
         if (profile%kind > 0 .and. .not. (has_unit .or. profile%has_unit) .and. &
             length < shortest_without_unit) then
             call set_place_status(status, st_file_format, 'a profile in no unit must be 30 mm ' // &
-                                  'long or more (--unit says in what unit a file is)', &
+                                  'long or more' // unit_remedy, &
                                   trim(number_text(length)) // ' mm', path, 0)
         else if (profile%kind > 0 .and. .not. has_unit .and. length < shortest_body) then
             call set_place_status(status, st_file_format, 'a profile of a wheel or a rail must' // &
-                                  ' be 10 mm long or more (--unit says in what unit a file is)', &
+                                  ' be 10 mm long or more' // unit_remedy, &
                                   trim(number_text(length)) // ' mm', path, 0)
         else if (.not. (length >= shortest .and. length <= longest)) then
             call set_place_status(status, st_file_format, 'a profile must be 1 to 3000 mm long' // &
-                                  ' (--unit says in what unit a file is)', &
+                                  unit_remedy, &
                                   trim(number_text(length)) // ' mm', path, 0)
         else if (n_back > max(few, int(most_turned_back*n))) then
             call set_place_status(status, st_file_format, 'points must stand in order along' // &
@@ -133,7 +137,8 @@ contains
             call set_place_status(status, st_file_format, 'the nominal rolling circle must be ' &
                                   // 'on a wheel: y is ' // trim(number_text(minval(y))) &
                                   // ' to ' // trim(number_text(maxval(y))) // &
-                                  ' mm from it (--tape-circle says where it is)', '', path, 0)
+                                  ' mm from it (--tape-circle, or tape_circle_mm in a ' // &
+                                  'case file, says where it is)', '', path, 0)
             return
         end if
         gauge = first_height(z, at, -1)
@@ -147,8 +152,9 @@ contains
             call set_place_status(status, st_file_format, 'the flange of a wheel must go down at ' &
                                   // 'y below 0, its deepest place is at y = ' // &
                                   trim(number_text(offset)) // ' mm (--tape-circle, ' // &
-                                  '--y-positive-to, --z-positive-to say where and how it ' // &
-                                  'lies)', '', path, 0)
+                                  '--y-positive-to, --z-positive-to, or in a case file ' // &
+                                  'tape_circle_mm, y_positive_to, z_positive_to, say where ' // &
+                                  'and how it lies)', '', path, 0)
         end if
     end subroutine check_wheel
 
@@ -239,8 +245,8 @@ contains
 
         subroutine refuse()
             call set_place_status(status, st_file_format, 'the sides of a rail must go down: ' // &
-                                  'this one lies upside down (--z-positive-to says how it lies)', &
-                                  '', path, 0)
+                                  'this one lies upside down (--z-positive-to, or ' // &
+                                  'z_positive_to in a case file, says how it lies)', '', path, 0)
         end subroutine refuse
     end subroutine check_rail
 

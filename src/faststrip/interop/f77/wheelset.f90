@@ -18,8 +18,9 @@
 !> STATE(1) y, mm           STATE(2) z, mm             STATE(3) roll, right wheel down, rad
 !> STATE(4) yaw, nose to the right, rad                STATE(5) speed, mm/s
 !> STATE(6), STATE(7) rates of y and z, mm/s           STATE(8), STATE(9) of roll and yaw, rad/s
-!> STATE(10) pitch rate, negative for rolling ahead    STATE(11) curvature of the track, 1/mm
-!>        0: pure rolling at the mean nominal radius; 1D300: locked wheels, 0
+!> STATE(10) pitch rate, negative for rolling ahead, rad/s; 0: pure rolling at the mean nominal
+!>        radius; 1D300: locked wheels, 0
+!> STATE(11) curvature of the track, 1/mm
 !> RAIL(1), RAIL(2) y and z of the right rail beside its place, mm      RAIL(3) its roll, rad
 !> RAIL(4), RAIL(5) rates of y and z, mm/s     RAIL(6) of its roll, rad/s
 !> RAIL(7) to RAIL(12) the same of the left rail
