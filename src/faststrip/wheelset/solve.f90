@@ -13,7 +13,7 @@ module faststrip_wheelset_solve
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      join_limitations, number_text, st_bad_argument, &
                                      st_workspace_too_small, st_target_missed, st_beyond_adhesion, &
-                                     st_no_convergence
+                                     st_no_convergence, st_no_contact
     use faststrip_contact_case, only: contact_case_t, keeps_elements
     use faststrip_contact_reserve, only: reserve_workspace, reserve_contact_field
     use faststrip_geometry_contact_frame, only: reserve_frame_gap
@@ -307,10 +307,10 @@ contains
         type(status_t), intent(out) :: status
 
         type(wheelset_state_t) :: moved
-        real(wp), dimension(n_directions) :: stiffness, u, force, left, before, step
-        real(wp) :: slope(n_directions, n_directions)
+        real(wp), dimension(n_directions) :: stiffness, u, best, force, left, before, missed, step
+        real(wp) :: slope(n_directions, n_directions), reach
         integer :: i, j, solutions(2)
-        logical :: singular
+        logical :: singular, is_first
 
         result%wheel%n = 0
         result%wheel%solutions = 0
@@ -318,38 +318,56 @@ contains
         if (is_error(status)) return
         stiffness = [model%rail_stiffness, model%rail_stiffness]
         solutions = 0
+        is_first = .true.
+        best = 0.0_wp
+        step = u
         do i = 1, most_deflections
+            u = best + step
             moved = state
             moved%rail%y = state%rail%y + u(1::2)
             moved%rail%z = state%rail%z + u(2::2)
             call solve_on_rails(model, workspace, moved, demand, result, status)
-            if (is_error(status)) return
             solutions = solutions + result%wheel%solutions
             result%wheel%solutions = solutions
+            if (is_error(status)) then
+                if (is_first .and. status%code /= st_no_contact) return
+                if (.not. any(abs(step) > 0.0_wp)) return
+                ! Rails that gave way too far, mostly to where nothing touches them.
+                step = 0.5_wp*step
+                cycle
+            end if
             force = 0.0_wp
             if (demand%wants(side_right)) force(:2) = result%wheel(side_right)%force(2:3)
             if (demand%wants(side_left)) force(3:) = result%wheel(side_left)%force(2:3)
             left = merge(force - stiffness*u, 0.0_wp, stiffness > 0.0_wp)
             workspace%deflection = reshape(u, [2, 2])
             if (all(abs(left) <= near_deflection*norm2(force))) return
-            if (i == 1) then
+            reach = huge(1.0_wp)
+            if (is_first) then
                 slope = first_slope(demand, result)
             else
                 ! How forces have fallen, beside what was expected.
-                before = before - left - matmul(slope, step) - stiffness*step
+                missed = before - left - matmul(slope, step) - stiffness*step
                 do j = 1, n_directions
-                    slope(:, j) = slope(:, j) + before*step(j)/sum(step**2)
+                    slope(:, j) = slope(:, j) + missed*step(j)/sum(step**2)
                 end do
+                ! Where more is left than before, from there again, and not so far.
+                if (norm2(left) > norm2(before)) reach = 0.5_wp*norm2(step)
             end if
-            call find_spring_step(slope, stiffness, left, step, singular)
+            if (is_first .or. reach > norm2(step)) then
+                best = u
+                before = left
+            end if
+            is_first = .false.
+            call find_spring_step(slope, stiffness, before, step, singular)
             if (singular) exit
-            u = u + step
-            before = left
+            step = step*min(1.0_wp, reach/norm2(step))
         end do
         workspace%has_last = .false.
         result%wheel%n = 0
-        call set_status(status, st_no_convergence, &
-                        'no balance of rails and their springs was found')
+        if (.not. is_error(status)) &
+            call set_status(status, st_no_convergence, &
+                            'no balance of rails and their springs was found')
     end subroutine solve_on_springs
 
     ! How forces fall with the displacements of the rails. Where loads are given wheels follow the

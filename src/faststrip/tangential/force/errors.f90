@@ -57,6 +57,14 @@ module faststrip_tangential_force_errors
     ! were fitted, over the squared width of their strips. Origin: measured on them.
     real(wp), parameter :: least_estimates(3) = [0.02_wp, 0.07_wp, 0.16_wp]
 
+    ! Tuned [1]: Least errors of Fx, Fy, Mz where nearly all slides: the directions of slip are
+    ! wrong by parts of the elastic one, which falls as rolling grows; where the network was fitted
+    ! most states roll askew. Origin: 420 contacts with creepage along or across, up to five times
+    ! what slides in the linear law, by TANG; 203 others up to thirty times are bounded in 97 of
+    ! 100.
+    real(wp), parameter :: least_sliding(3) = [0.0_wp, 0.004_wp, 0.009_wp], &
+                           sliding_share(3) = [0.0_wp, 0.018_wp, 0.06_wp]
+
     ! Tuned [1]: Error of Fx, Fy, Mz by what other patches change in Fx, Fy and, times half the
     ! length, Fy. Origin: 336 contacts of several patches by TANG, as `patch_coupling`; they are
     ! bounded in 95 of 100 contacts.
@@ -230,6 +238,8 @@ contains
                               error_third_bias, x, c)
         errors = error_safety*exp(c(3*method - 2:3*method))*min(rolling/weakest, 1.0_wp) &
                  /max(share_seen(state, unlike), least_seen)
+        errors = max(errors, min(least_sliding*min(max(rolling - 1.0_wp, 0.0_wp), 1.0_wp), &
+                                 sliding_share/rolling))
     end function errors_of_patch
 
     !> An estimate of the normal figures as those that were fitted.
