@@ -4,6 +4,7 @@ module faststrip_contact_method_strip
     use faststrip_base_material, only: normal_compliance
     use faststrip_base_status, only: status_t, clear_status, is_error, add_limitation, &
                                      message_length, st_under_resolved
+    use faststrip_influence_rectangle, only: coupling_constant
     use faststrip_normal_simple_equal_ellipse, only: replace_by_ellipses, equal_area, equal_moments
     use faststrip_normal_estimate_errors, only: estimate_strip_errors
     use faststrip_normal_limitations, only: name_resolution
@@ -13,11 +14,16 @@ module faststrip_contact_method_strip
     use faststrip_contact_method, only: workspace_t, contact_result_t, demand_of
     use faststrip_contact_method_capacity, only: on_strips_t, check_capacity
     use faststrip_contact_methods, only: normal_table, normal_strip, normal_equal_area, &
-                                         normal_equal_moments
+                                         normal_equal_moments, tangential_none
     implicit none
     private
 
     public :: strip_method, equal_area_method, equal_moments_method
+
+    ! Tuned [1]: Errors of penetration, maximum pressure and area by what tractions of dissimilar
+    ! materials do to pressures, over K mu. Origin: NORM and TANG, 84 pairs and gaps: nine in ten
+    ! are less.
+    real(wp), parameter :: lost_of_pressed(3) = [0.1_wp, 1.0_wp, 0.4_wp]
 
     !> Strips.
     type, extends(on_strips_t) :: strip_method_t
@@ -82,13 +88,22 @@ contains
 
         character(len=message_length) :: words
         type(status_t) :: estimate
+        real(wp) :: lost(3)
 
+        lost = 0.0_wp
         call estimate_strip_errors(workspace%solver%curve, normal_compliance(case%material), &
                                    workspace%strips, result%normal, result%normal_errors, &
                                    estimate)
         result%is_estimated = .not. is_error(estimate)
         result%has_residuals = result%is_estimated
         if (result%is_estimated) then
+            if (case%methods%tangential /= tangential_none) &
+                lost = lost_of_pressed*abs(coupling_constant(case%material))*case%mu
+            associate (errors => result%normal_errors)
+                errors%est_err_penetration = errors%est_err_penetration + lost(1)
+                errors%est_err_pmax = errors%est_err_pmax + lost(2)
+                errors%est_err_area = errors%est_err_area + lost(3)
+            end associate
             call name_resolution(result%normal_errors%est_err_penetration, &
                                  result%normal_errors%est_err_pmax, &
                                  result%normal_errors%est_err_area, case%resolution_limit, status)
