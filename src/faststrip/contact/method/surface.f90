@@ -16,7 +16,7 @@ module faststrip_contact_method_surface
     use faststrip_contact_case, only: contact_case_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inclination, gap_inv2r, &
                                             first_point_from
-    use faststrip_normal_limitations, only: turn_of_contact, doubtful_inclination, &
+    use faststrip_normal_limitations, only: turn_of_contact, lean_of_contact, turns_too_far, &
                                             name_resolution, name_force_resolution
     use faststrip_normal_strips, only: contact_strips_t, strips_load, load_of, middle_of
     use faststrip_contact_method, only: workspace_t, contact_result_t
@@ -163,7 +163,8 @@ contains
         if (is_error(status) .or. .not. (turn > 0.0_wp .and. result%forces_are_estimated)) return
         bound = workspace%mu*result%normal%load
         if (.not. bound > 0.0_wp) return
-        call find_means(workspace%solver%curve, workspace%strips, lean, depth)
+        lean = lean_of_contact(workspace%solver%curve, workspace%strips)
+        depth = mean_depth(workspace%solver%curve, workspace%strips)
         added = lost_of_forces*turn**2
         if (.not. case%curved) then
             added(2) = added(2) + abs(lean)*result%normal%load/bound
@@ -194,29 +195,23 @@ contains
                          tangential == tangential_faststrip_plain
     end function acts_at_places
 
-    !> Means by load of the sine of the strips' inclination and of their depth, mm.
-    pure subroutine find_means(curve, strips, lean, depth)
+    !> Mean by load of the strips' depth, mm.
+    pure real(wp) function mean_depth(curve, strips) result(depth)
         type(gap_curve_t), intent(in) :: curve
         type(contact_strips_t), intent(in) :: strips
-        real(wp), intent(out) :: lean, depth
 
-        real(wp) :: y, z, load
+        real(wp) :: y, z
         integer :: k
 
-        lean = 0.0_wp
         depth = 0.0_wp
         y = 0.0_wp
         z = 0.0_wp
         do k = 1, strips%n
             call go_to_strip(curve, strips, k, y, z)
-            load = load_of(strips, k)
-            lean = lean + load*sin(gap_inclination(curve, y))
-            depth = depth + load*z
+            depth = depth + load_of(strips, k)*z
         end do
-        load = max(strips_load(strips), tiny(load))
-        lean = lean/load
-        depth = depth/load
-    end subroutine find_means
+        depth = depth/max(strips_load(strips), tiny(depth))
+    end function mean_depth
 
     !> Half of what the surfaces turn by, if that makes the contact `conformal` and errors are
     !> estimated, rad; else zero.
@@ -228,9 +223,9 @@ contains
         if (.not. result%is_estimated) return
         associate (curve => workspace%solver%curve)
             if (curve%n == 0 .or. .not. curve%inclination_is_known) return
-            turn = turn_of_contact(curve, workspace%strips)
+            if (turns_too_far(curve, workspace%strips)) &
+                turn = 0.5_wp*turn_of_contact(curve, workspace%strips)
         end associate
-        turn = merge(0.5_wp*turn, 0.0_wp, turn > doubtful_inclination)
     end function conformal_turn
 
     !> The load of pressures that were turned, as it is along the surface.
