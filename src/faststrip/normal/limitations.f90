@@ -45,7 +45,7 @@ module faststrip_normal_limitations
     private
 
     public :: check_curvature, check_depth, check_lowest, name_limitations, name_steps, name_step
-    public :: name_conformal, turn_of_contact, lean_of_contact, turns_too_far
+    public :: name_conformal, turn_of_contact, lean_of_contact, name_lean, doubtful_inclination
     public :: name_resolution, name_force_resolution
     public :: default_resolution, check_resolution
 
@@ -253,7 +253,7 @@ contains
             !! if present the strips at the ends and in the middle are looked at alone
 
         character(len=message_length) :: words
-        real(wp) :: h_left, h_right, inv2r, slope, turn, lean
+        real(wp) :: h_left, h_right, inv2r, slope, turn
         integer :: k
 
         slope = 0.0_wp
@@ -266,17 +266,11 @@ contains
             slope = max(slope, 2.0_wp*max(inv2r, 0.0_wp)*min(strips%half_length(k), largest_size))
         end do
         turn = turn_of_contact(curve, strips)
-        lean = lean_of_contact(curve, strips)
         if (turn > doubtful_inclination) then
             ! Given: degrees
             words = 'half-space doubtful: the inclination of the surfaces changes by ' &
                 //number_text(turn*180.0_wp/pi)
             call add_words(words, ' degrees over the contact')
-            call add_limitation(status, st_conformal, words)
-        else if (abs(lean) > doubtful_lean) then
-            words = 'half-space doubtful: on their own surfaces pressures have a force of ' &
-                //number_text(abs(lean))
-            call add_words(words, ' of the load along the plane of the contact')
             call add_limitation(status, st_conformal, words)
         else if (slope > doubtful_slope) then
             words = 'half-space doubtful: a slope of '//number_text(slope)
@@ -326,14 +320,23 @@ contains
         lean = lean/max(strips_load(strips), tiny(lean))
     end function lean_of_contact
 
-    !> Is a contact conformal by how its surfaces turn?
-    pure logical function turns_too_far(curve, strips)
-        type(gap_curve_t), intent(in) :: curve       !! the gap that was solved
+    !> Add to the status of a contact in a plane that its force has another direction by more than
+    !> forces should: `st_conformal`.
+    pure subroutine name_lean(curve, strips, status)
+        type(gap_curve_t), intent(in) :: curve       !! the gap, in the mean plane of its contact
         type(contact_strips_t), intent(in) :: strips !! its solution
+        type(status_t), intent(inout) :: status      !! limitations so far, no error
 
-        turns_too_far = turn_of_contact(curve, strips) > doubtful_inclination &
-                        .or. abs(lean_of_contact(curve, strips)) > doubtful_lean
-    end function turns_too_far
+        character(len=message_length) :: words
+        real(wp) :: lean
+
+        lean = abs(lean_of_contact(curve, strips))
+        if (lean <= doubtful_lean .or. btest(status%limitations, st_conformal)) return
+        words = 'half-space doubtful: on their own surfaces pressures have a force of ' &
+                //number_text(lean)
+        call add_words(words, ' of the load along the plane of the contact')
+        call add_limitation(status, st_conformal, words)
+    end subroutine name_lean
 
     !> Add `st_under_resolved` to a status if an estimated error is above a limit, or no number.
     pure subroutine name_resolution(penetration, pmax, area, limit, status)

@@ -20,7 +20,7 @@ module faststrip_wheelset_wheel
     use faststrip_geometry_gap, only: gap_t
     use faststrip_wheelset_guide, only: needs_guide, take_guide
     use faststrip_geometry_contact_frame, only: contact_frame_t, frame_gap_t, in_track, along_normal
-    use faststrip_normal_limitations, only: name_resolution
+    use faststrip_normal_limitations, only: name_resolution, name_lean
     use faststrip_normal_strips, only: usual_strips
     use faststrip_normal_strip_places, only: find_displaced, value_between
     use faststrip_geometry_contact_yawed, only: find_frame_gap
@@ -356,7 +356,12 @@ contains
             else
                 call solve_contact(workspace%contact(i), case, contact%figures, contact%status)
             end if
-            if (.not. is_error(contact%status)) call find_contact_force(model, axes, contact)
+            if (is_error(contact%status)) return
+            call find_contact_force(model, axes, contact)
+            associate (solved => workspace%contact(i))
+                if (.not. case%curved) &
+                    call name_lean(solved%solver%curve, solved%strips, contact%status)
+            end associate
         end subroutine solve_and_sum
     end subroutine solve_one
 

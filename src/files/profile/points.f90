@@ -11,7 +11,7 @@ module faststrip_files_profile_points
 
     public :: profile_file_t, profile_options_t, key_t, line_t
     public :: read_lines, append_point, add_key, add_note, without_comment, split_words
-    public :: split_key, parse_words, is_number_line, unquoted, length_unit
+    public :: split_key, parse_words, has_decimal_commas, is_number_line, unquoted, length_unit
     public :: largest_coordinate
 
     !> A sense or a choice that is left to the format.

@@ -12,7 +12,7 @@ module faststrip_files_profile_text
     use faststrip_geometry_touchable, only: body_wheel
     use faststrip_files_profile_points, only: profile_file_t, profile_options_t, line_t, &
                                               append_point, without_comment, split_words, &
-                                              parse_words, length_unit
+                                              parse_words, has_decimal_commas, length_unit
     implicit none
     private
 
@@ -64,37 +64,16 @@ contains
             end if
             call parse_words(line, n_columns, n_columns, path, i, values, n, status)
             if (is_error(status)) then
-                if (has_decimal_commas(line)) then
-                    call set_place_status(status, st_file_format, 'numbers must have a decimal ' &
-                                          // 'point, not a comma', line, path, i)
-                else if (.not. named .and. profile%n == 0 .and. n > 2) then
+                if (.not. (named .or. profile%n > 0 .or. n <= 2 .or. has_decimal_commas(line))) &
                     call set_place_status(status, st_file_format, 'a point must be two numbers, ' &
                                           // 'or a line above must name the columns, y and z ' // &
                                           'among them; other lines above begin with #', line, &
                                           path, i)
-                end if
                 return
             end if
             call append_point(profile, values(column_y), values(column_z), i)
         end do
     end subroutine read_text_profile
-
-    ! Are there numbers as 1,5 between tabs, blanks or semicolons?
-    pure logical function has_decimal_commas(line)
-        character(len=*), intent(in) :: line
-
-        character(len=*), parameter :: digits = '0123456789'
-        integer :: i
-
-        has_decimal_commas = .false.
-        if (verify(line, digits // '+-.,;eEdD ' // achar(9)) > 0) return
-        if (scan(line, '; ' // achar(9)) == 0) return
-        do i = 2, len(line) - 1
-            has_decimal_commas = line(i:i) == ',' .and. index(digits, line(i - 1:i - 1)) > 0 &
-                                 .and. index(digits, line(i + 1:i + 1)) > 0
-            if (has_decimal_commas) return
-        end do
-    end function has_decimal_commas
 
     !> Which columns are y and z, and in what unit.
     subroutine take_names(line, path, number, options, column_y, column_z, n_columns, profile, &

@@ -16,7 +16,8 @@ module faststrip_contact_method_surface
     use faststrip_contact_case, only: contact_case_t
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_inclination, gap_inv2r, &
                                             first_point_from
-    use faststrip_normal_limitations, only: turn_of_contact, lean_of_contact, turns_too_far, &
+    use faststrip_normal_limitations, only: turn_of_contact, lean_of_contact, &
+                                            doubtful_inclination, &
                                             name_resolution, name_force_resolution
     use faststrip_normal_strips, only: contact_strips_t, strips_load, load_of, middle_of
     use faststrip_contact_method, only: workspace_t, contact_result_t
@@ -223,9 +224,9 @@ contains
         if (.not. result%is_estimated) return
         associate (curve => workspace%solver%curve)
             if (curve%n == 0 .or. .not. curve%inclination_is_known) return
-            if (turns_too_far(curve, workspace%strips)) &
-                turn = 0.5_wp*turn_of_contact(curve, workspace%strips)
+            turn = turn_of_contact(curve, workspace%strips)
         end associate
+        turn = merge(0.5_wp*turn, 0.0_wp, turn > doubtful_inclination)
     end function conformal_turn
 
     !> The load of pressures that were turned, as it is along the surface.
