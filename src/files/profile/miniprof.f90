@@ -380,8 +380,8 @@ contains
         else
             call set_place_status(status, st_file_format, 'XYPoints must be the number of ' // &
                                   'points, ' // integer_text(profile%n) // ' (--any-count, or ' &
-                                  // 'any_count in a case file, takes them)', integer_text(header%n_points), path, &
-                                  header%line_of_count)
+                                  // 'any_count in a case file, takes them)', &
+                                  integer_text(header%n_points), path, header%line_of_count)
         end if
     end subroutine check_count
 

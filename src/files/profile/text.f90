@@ -112,7 +112,8 @@ contains
         end if
         if (n_columns > most_columns .or. column_y == 0 .or. column_z == 0) then
             call set_place_status(status, st_file_format, 'names of columns must hold one of y ' &
-                                  // 'and one of z; other lines above begin with #', line, path, number)
+                                  // 'and one of z; other lines above begin with #', line, &
+                                  path, number)
         else if (abs(unit(1) - unit(2)) > 0.0_wp) then
             call set_place_status(status, st_file_format, 'y and z must have one unit', line, &
                                   path, number)
