@@ -113,7 +113,7 @@ class CaseFiles(ProgramTest):
         self.write("gap.csv", gap_text(parabola, n=61))
         good = gap_case()
         for text, says in (
-            (good.replace("load_N", "loadN"), ["(c.nml:4)", "loadn"]),
+            (good.replace("load_N", "loadN"), ["(c.nml:4)", "loadN", "did you mean load_N"]),
             (gap_case(load="1e5\n colour = 'red'"), ["(c.nml:5)", "colour"]),
             (good.replace("&motion", "&emotion"), ["(c.nml:9)", "&emotion"]),
             (good + "&mystery x = 1 /\n", ["(c.nml:12)", "&mystery"]),

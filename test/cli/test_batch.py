@@ -355,7 +355,7 @@ class Sweep(ProgramTest):
                                                   "s.nml:16"]),
             ("&sweep shifts_mm = 1, 2\n load_N = 1 /\n", ["load_N", "s.nml:17"]),
             ("&sweep shifts_mm = 1, 2\n load_N = 1, -1 /\n", ["load_N", "-1.0", "s.nml:17"]),
-            ("&sweep shifts_mm = 1\n cksi = 0.1 /\n", ["ceta"]),
+            ("&sweep shifts_mm = 1\n ceta = 0.1, 0.1 /\n", ["ceta", "s.nml:17"]),
         ):
             with self.subTest(text):
                 self.write("s.nml", profile_case(extra=text))

@@ -24,7 +24,7 @@ module faststrip_command_batch
     use faststrip_command_program_console, only: fail, fail_on_error, note, put_origin, &
                                                  version_text, tell_held, usage_error, &
                                                  exit_bad_input, exit_usage
-    use faststrip_command_settings_doubts, only: tally_t, add_tally, hold_tally, hold_limitations
+    use faststrip_command_settings_doubts, only: tally_t, add_tally, hold_tally
     use faststrip_command_program_files, only: trouble_t, take_beside, clear_leftovers
     use faststrip_command_batch_gap_cache, only: gap_cache_t, start_cache, tidy_cache
     use faststrip_command_batch_gap_digests, only: take_digests, put_digests, changed_file
@@ -125,7 +125,6 @@ contains
             call add_tally(tally, job%workers(i)%tally)
         end do
         call hold_tally(tally, job%input)
-        call hold_limitations(counts, job%input)
         call tell_held()
         call release_workers(job%workers)
         call clear_leftovers()

@@ -107,7 +107,7 @@ contains
                 if (.not. is_error(status)) call name_spacing(spacing, status)
                 call put_sweep_row(writer, case, prepared, result, solver%workspace%steps, &
                                    status)
-                call count_status(counts, status%code)
+                if (m == 1) call count_status(counts, status%code)
                 if (.not. is_error(status)) &
                     call count_pressure(pressures, result%normal%pmax, 0)
                 if (.not. is_error(status)) &

@@ -85,7 +85,7 @@ contains
                 call note(trim(measures(i)%status%message))
                 cycle
             end if
-            if (measures(i)%points%kind == 0) &
+            if (n == 1 .and. measures(i)%points%kind == 0) &
                 call note(measures(i)%path // ': wheel or rail is not known, and so how it lies ' &
                           // 'was not checked; --kind says it')
             if (len(measures(i)%words) > 0) &
