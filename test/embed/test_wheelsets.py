@@ -242,6 +242,35 @@ class Interfaces(HostTest):
                     self.assertLess(abs(found.force - wanted.force).max(), 0.02)
             self.assertLess(sum(solutions[2:]) / 58.0, most, demand)
 
+    def test_what_was_asked_the_last_time_is_not_solved_again(self):
+        package = self.import_package()
+        wheelset = package.Wheelset()
+        state = {"y": 2.0, "yaw": 2e-3, "speed": 2e4}
+        asked = {"axle_load": 1.4e5, "warm_start": True}
+        wheelset.solve(**{**state, "y": 1.9}, **asked)
+        first = wheelset.solve(**state, **asked)
+        self.assertGreater(sum(first.n_solutions), 0)
+        again = wheelset.solve(**state, **asked)
+        self.assertEqual(tuple(again.n_solutions), (0, 0))
+        self.assertEqual(again.force.tobytes(), first.force.tobytes())
+        self.assertEqual(again.moment.tobytes(), first.moment.tobytes())
+        self.assertEqual((again.word, len(again.contacts)), (first.word, len(first.contacts)))
+        derivatives = wheelset.solve(**state, **asked, derivatives=True)
+        self.assertEqual(tuple(derivatives.n_solutions), (0, 0))
+        self.assertGreater(abs(derivatives.derivatives[0, 2, 1]), 1e5)
+        # A cold start is one.
+        for _ in range(2):
+            self.assertGreater(sum(wheelset.solve(**state, axle_load=1.4e5).n_solutions), 0)
+        for change in ({"y_rate": 1.0}, {"wheels": "right", "load": 7e4}, {"axle_load": 1.3e5},
+                       {"right_rail": package.RailState(z=1e-3)}):
+            with self.subTest(change):
+                wheelset.solve(**state, **asked)
+                words = {**state, **asked, **change}
+                if "load" in change:
+                    del words["axle_load"]
+                    words["roll"] = 0.0
+                self.assertGreater(sum(wheelset.solve(**words).n_solutions), 0)
+
     def test_copies_go_on_alike_also_where_strips_fall_back(self):
         package = self.import_package()
         rough = random.Random(9)
@@ -624,7 +653,7 @@ class Interfaces(HostTest):
         package = self.import_package()
         state = {"yaw": 1e-3, "y_rate": 5.0, "speed": 2e4, "roll": 0.0, "wheels": "right"}
         found = package.Wheelset(rail="54e1", inclination=0.05).solve(y=5.864, load=1.1e5, **state)
-        self.assertEqual([contact.word for contact in found.contacts], ["conformal", "ok"])
+        self.assertEqual((len(found.contacts), found.contacts[0].word), (2, "conformal"))
         self.assertLess(found.contacts[1].load, 5.0)
         self.assertLess(found.contacts[1].penetration, 2e-4)
         cold = package.Wheelset(rail="54e1", inclination=0.05)

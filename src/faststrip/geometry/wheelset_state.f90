@@ -19,7 +19,8 @@ module faststrip_geometry_wheelset_state
 
     public :: wheelset_state_t, wheelset_axes_t, rail_state_t, on_roller_t, pure_rolling
     public :: mirrored_state, reversed_state, rolling_state, resting_state, is_at_rest, &
-              check_state, wheelset_axes, rigid_creepage, approach_rate, rail_velocity, cross
+              check_state, wheelset_axes, rigid_creepage, approach_rate, rail_velocity, cross, &
+              is_same_state
 
     ! Roll, yaw and contact angles beyond are refused, rad: lines of a wheel that is turned farther
     ! have no meaning.
@@ -75,6 +76,29 @@ module faststrip_geometry_wheelset_state
     end type wheelset_axes_t
 
 contains
+
+    !> Are two states the same, to the last bit?
+    pure logical function is_same_state(one, other) result(is_same)
+        type(wheelset_state_t), intent(in) :: one   !! mm, rad, s
+        type(wheelset_state_t), intent(in) :: other !! the same
+
+        is_same = one%y == other%y .and. one%z == other%z .and. one%roll == other%roll &
+                  .and. one%yaw == other%yaw .and. one%speed == other%speed &
+                  .and. one%y_rate == other%y_rate .and. one%z_rate == other%z_rate &
+                  .and. one%roll_rate == other%roll_rate .and. one%yaw_rate == other%yaw_rate &
+                  .and. one%pitch_rate == other%pitch_rate &
+                  .and. one%pitch_rate_difference == other%pitch_rate_difference &
+                  .and. one%curvature == other%curvature &
+                  .and. all(is_same_rail(one%rail, other%rail))
+    end function is_same_state
+
+    elemental logical function is_same_rail(one, other) result(is_same)
+        type(rail_state_t), intent(in) :: one, other
+
+        is_same = one%y == other%y .and. one%z == other%z .and. one%roll == other%roll &
+                  .and. one%y_rate == other%y_rate .and. one%z_rate == other%z_rate &
+                  .and. one%roll_rate == other%roll_rate
+    end function is_same_rail
 
     !> The same wheelset in a mirror: left is right.
     elemental type(wheelset_state_t) function mirrored_state(state) result(mirrored)

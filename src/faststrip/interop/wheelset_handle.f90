@@ -5,7 +5,8 @@ module faststrip_interop_wheelset_handle
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_bad_argument, st_workspace_too_small, st_ok
     use faststrip_base_kinds, only: wp
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t, pure_rolling
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, rail_state_t, pure_rolling, &
+                                                 is_same_state
     use faststrip_interop_lookup_handle, only: find_lookup
     use faststrip_interop_register, only: leave_register, look_up_register, kind_wheelset
     use faststrip_interop_solution, only: mirror_t
@@ -23,7 +24,8 @@ module faststrip_interop_wheelset_handle
     use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheel_workspace_t, &
-                                        wheelset_demand_t, wheelset_result_t, side_right, side_left
+                                        wheelset_demand_t, wheelset_result_t, is_same_demand, &
+                                        side_right, side_left
     implicit none
     private
 
@@ -37,12 +39,20 @@ module faststrip_interop_wheelset_handle
     ! Given: `FASTSTRIP_LOCKED_WHEELS`, what stands for a pitch rate of 0.
     real(wp), parameter :: locked_wheels = 1.0e300_wp
 
+    !> What was asked, as it was given, and how that ended.
+    type :: asked_t
+        type(wheelset_state_t) :: state
+        type(wheelset_demand_t) :: demand
+        type(status_t) :: status
+    end type asked_t
+
     !> One caller's wheelset.
     type :: wheelset_handle_t
         type(wheelset_model_t) :: model
         type(wheelset_workspace_t), allocatable :: workspace
         type(wheelset_result_t) :: result
         logical :: has(2) = .false. !! which wheels the result is of
+        type(asked_t), allocatable :: asked !! what the result answers
         type(rail_state_t) :: rail(2) !! right, left: of the F77 interface, which sets them once
         real(wp) :: pitch_rate_difference = 0.0_wp !! left less right, rad/s; likewise
         logical :: axle_moment_is_given = .false. !! likewise
@@ -77,7 +87,7 @@ contains
         integer :: failure
 
         call clear_status(status)
-        allocate (handle%workspace, stat=failure)
+        allocate (handle%workspace, handle%asked, stat=failure)
         if (failure /= 0) call refuse_memory(status)
     end subroutine allocate_workspace
 
@@ -154,6 +164,7 @@ contains
         to%model = from%model
         to%result = from%result
         to%has = from%has
+        to%asked = from%asked
         to%rail = from%rail
         to%pitch_rate_difference = from%pitch_rate_difference
         to%axle_moment_is_given = from%axle_moment_is_given
@@ -272,7 +283,8 @@ contains
                                            'the wheelset''s lookup table was freed')
     end subroutine take_table
 
-    !> Solve the contacts of a wheelset; its result has them, unless they are more than fit.
+    !> Solve the contacts of a wheelset; its result has them, unless they are more than fit. A warm
+    !> start that asks what was asked the last time has its result: no contact problems then.
     subroutine wheelset_solve(handle, state, demand, warm_start, capacity, n)
         type(wheelset_handle_t), intent(inout) :: handle !! its status tells how it ended
         type(wheelset_state_t), intent(in) :: state      !! position and velocity
@@ -285,13 +297,22 @@ contains
         integer :: side, i
 
         n = 0
+        call clear_status(handle%status)
+        call take_table(handle)
+        if (is_error(handle%status)) then
+            handle%has = .false.
+            return
+        else if (warm_start .and. any(handle%has) .and. is_same_state(handle%asked%state, state) &
+                 .and. is_same_demand(handle%asked%demand, demand)) then
+            handle%result%wheel%solutions = 0
+            handle%status = handle%asked%status
+            call tell_count(handle, capacity, n)
+            return
+        end if
         handle%has = .false.
         handle%doubts%n = 0
         ! As if it had never been solved.
         if (.not. warm_start) handle%workspace%has_last = .false.
-        call clear_status(handle%status)
-        call take_table(handle)
-        if (is_error(handle%status)) return
         call hold_environment(environment)
         call doubt_material(handle%model%case, case_names_t(), handle%doubts)
         call add_doubt(handle%doubts, of_radius, 'radius', handle%model%radius)
@@ -311,12 +332,24 @@ contains
             end do
         end do
         call restore_environment(environment)
+        handle%asked%state = state
+        handle%asked%demand = demand
+        handle%asked%status = handle%status
+        call tell_count(handle, capacity, n)
+    end subroutine wheelset_solve
+
+    ! How many contacts a result has, if the caller has room for them.
+    subroutine tell_count(handle, capacity, n)
+        type(wheelset_handle_t), intent(inout) :: handle
+        integer(c_int), intent(in) :: capacity
+        integer(c_int), intent(out) :: n
+
         n = contact_count(handle)
         if (n <= capacity) return
         call set_status(handle%status, st_workspace_too_small, &
                         'there are more contacts than fit: ' // count_text(n))
         handle%has = .false.
-    end subroutine wheelset_solve
+    end subroutine tell_count
 
     !> Derivatives at the last solution of a handle.
     subroutine wheelset_derivatives(handle, derivatives)

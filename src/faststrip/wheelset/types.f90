@@ -20,7 +20,7 @@ module faststrip_wheelset_types
     public :: wheelset_model_t, wheelset_demand_t, wheel_contact_t, wheel_result_t
     public :: wheelset_result_t, wheel_workspace_t, wheelset_workspace_t, path_t
     public :: side_right, side_left, demand_position, demand_loads, demand_axle_load, demand_rest
-    public :: most_contacts, standard_accuracy
+    public :: most_contacts, standard_accuracy, is_same_demand
 
     !> Given: places in arrays of both sides.
     integer, parameter :: side_right = 1
@@ -192,4 +192,20 @@ module faststrip_wheelset_types
             !! of the rails at the last solution, y and z of right and left, mm
         type(wheel_result_t), allocatable :: near(:) !! (1) a neighbour, for derivatives
     end type wheelset_workspace_t
+
+contains
+
+    !> Do two demands ask the same?
+    pure logical function is_same_demand(one, other) result(is_same)
+        type(wheelset_demand_t), intent(in) :: one   !! a demand
+        type(wheelset_demand_t), intent(in) :: other !! another one
+
+        is_same = one%kind == other%kind .and. all(one%wants .eqv. other%wants) &
+                  .and. (one%roll_is_free .eqv. other%roll_is_free) &
+                  .and. (one%axle_moment_is_given .eqv. other%axle_moment_is_given) &
+                  .and. all(one%load == other%load) .and. one%axle_load == other%axle_load &
+                  .and. one%roll_moment == other%roll_moment &
+                  .and. one%axle_moment == other%axle_moment &
+                  .and. one%tolerance == other%tolerance .and. one%bracket == other%bracket
+    end function is_same_demand
 end module faststrip_wheelset_types
