@@ -258,6 +258,22 @@ class Wheelset(ProgramTest):
             self.write("bad.nml", CASE + f"&numerics\n {words}\n/\n")
             self.refused(1, "lookup", "wheel", "bad.nml", "-o", "x.fslt", says=["a table", said])
 
+    def test_contacts_that_hang_on_single_points_are_named(self):
+        # Points rounded to .01 mm, and the same with all digits.
+        cases = ROOT / "example" / "cases"
+        words = {}
+        for name in ("worn_wheel.whl", "worn_wheel.txt"):
+            self.write(name, (cases / name).read_text(encoding="utf-8"))
+            self.write("worn.nml", CASE.replace("'s1002'", f"'{name}'"))
+            rows = self.solved(*(f"{y},right,{y},0,0,2000,,8e4" for y in (-4, -2, 0, 1, 6.25)),
+                               case="worn.nml")
+            words[name] = [row["message"] for row in rows]
+        self.assertGreater(len(words["worn_wheel.whl"]), 4)
+        for said in words["worn_wheel.whl"]:
+            self.assertRegex(said, "points of the profiles do not resolve|did not converge|turns")
+        for said in words["worn_wheel.txt"]:
+            self.assertEqual(said, "")
+
     def test_pressures_beyond_yield_are_named(self):
         state = "1,right,2,0,0.002,2000,,1e4"
         pmax = float(self.solved(state)[0]["pmax_MPa"])

@@ -33,6 +33,7 @@ module faststrip_command_contact_point_spacing
     type :: point_spacing_t
         logical :: is_known = .false.    !! are there points, and a contact?
         logical :: is_solved = .true.    !! has the contact a solution without them?
+        logical :: is_there = .true.     !! is it there then?
         real(wp) :: pmax = 0.0_wp        !! largest relative change of pmax
         real(wp) :: forces = 0.0_wp      !! largest change of the forces over mu N
     end type point_spacing_t
@@ -120,6 +121,8 @@ contains
         words = ''
         if (.not. spacing%is_solved) then
             words = 'there is no solution'
+        else if (.not. spacing%is_there) then
+            words = 'it is not there'
         else if (spacing%pmax > pmax_limit) then
             words = 'pmax changes by ' // trim(number_text(percent*spacing%pmax)) // ' %'
         else if (spacing%forces > force_limit) then

@@ -29,6 +29,8 @@ module faststrip_command_wheelset
     use faststrip_command_settings_doubts, only: tally_t, hold_tally, hold_limitations
     use faststrip_command_wheelset_doubts, only: hold_wheelset_doubts
     use faststrip_command_wheelset_jump, only: is_jump
+    use faststrip_command_wheelset_point_spacing, only: wheelset_spacing_t, prepare_spacing, &
+                                                        name_wheelset_spacing
     use faststrip_command_wheelset_csv, only: put_wheelset_header, put_wheel, put_failed_state, &
                                               put_strips_header, put_wheel_strips, &
                                               put_fields_header, put_wheel_field
@@ -72,6 +74,7 @@ module faststrip_command_wheelset
         character(len=:), allocatable :: profiles_of     !! state they are of; empty: not known yet
         type(tally_t) :: pressures                       !! beyond all steel
         type(status_counts_t) :: counts                  !! of the contacts
+        type(wheelset_spacing_t) :: spacing              !! with every second point of profiles
         real(wp) :: beside = 0.0_wp                      !! how far away jumps count, mm; 0: not
         type(csv_writer_t) :: writer(size(outputs))
     end type run_t
@@ -151,6 +154,8 @@ contains
                 call reserve_wheelset(run%workspaces(i), run%model, status)
             call fail_on_error(status)
         end do
+        call prepare_spacing(command%arguments(1)%text, case, run%spacing, status)
+        call fail_on_error(status)
         if (.not. case%has_state) then
             call read_csv(option_text(command, '--states', ''), table, status)
             call fail_on_error(status)
@@ -288,6 +293,7 @@ contains
             call put_failed_state(run%writer(1), name, trim(given%side), status)
             return
         end if
+        call name_wheelset_spacing(run%spacing, state, demand, result)
         wants = given%side == 'both' .or. given%side == side_names
         call put_sides(run, name, wants, result, 1)
         call count_pressure(run%pressures, largest_pressure(result, wants), line)
