@@ -35,6 +35,7 @@ module faststrip_contact_given_forces
     use faststrip_contact_method_surface, only: lay_strips, find_lean, lateral_share
     use faststrip_contact_methods, only: method_t, tangential_none, tangential_linear, &
                                          tangential_she, tangential_polach
+    use faststrip_normal_limitations, only: name_creepage_resolution
     use faststrip_tangential_force_map, only: force_map_t, make_force_map, unsaturated, &
                                               find_creepages, solve_two, kappa
     use faststrip_tangential_laws, only: law_linear, law_shen_hedrick_elkins, law_polach
@@ -404,5 +405,7 @@ contains
                                      *product_of(abs(workspace%found%rates), &
                                                  [errors%fx, errors%fy])
         end associate
+        call name_creepage_resolution(result%creepage_errors(1), result%creepage_errors(2), &
+                                      case%force_limit, status)
     end subroutine estimate_given_forces
 end module faststrip_contact_given_forces

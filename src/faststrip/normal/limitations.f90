@@ -46,7 +46,7 @@ module faststrip_normal_limitations
 
     public :: check_curvature, check_depth, check_lowest, name_limitations, name_steps, name_step
     public :: name_conformal, turn_of_contact, lean_of_contact, name_lean, doubtful_inclination
-    public :: name_resolution, name_force_resolution
+    public :: name_resolution, name_force_resolution, name_creepage_resolution
     public :: default_resolution, check_resolution
 
     !> Estimated relative error up to which a solution is called resolved. At 5 % twice, at 20 %
@@ -363,6 +363,17 @@ contains
                               [character(len=10) :: ' of mu N', ' of mu N', ' of mu N c'], limit, &
                               status)
     end subroutine name_force_resolution
+
+    !> The same of creepages that were found.
+    pure subroutine name_creepage_resolution(cksi, ceta, limit, status)
+        real(wp), intent(in) :: cksi            !! estimated error of cksi
+        real(wp), intent(in) :: ceta            !! of ceta
+        real(wp), intent(in) :: limit           !! largest that is called resolved
+        type(status_t), intent(inout) :: status !! limitations so far, or an error, which stays
+
+        call name_first_above([cksi, ceta], [character(len=5) :: ' cksi', ' ceta'], &
+                              [character(len=1) :: '', ''], limit, status)
+    end subroutine name_creepage_resolution
 
     !> Name the first estimate that is above a limit.
     pure subroutine name_first_above(estimates, names, units, limit, status)
