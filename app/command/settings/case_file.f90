@@ -170,7 +170,8 @@ contains
         associate (creepage => case%creepage)
             if (case%creepage_by_formula .and. &
                 any([creepage%cksi, creepage%ceta, creepage%cphi] /= 0.0_wp)) &
-                call refuse(group, 'creepage', 'must be given where creepages are given', 'formula')
+                call refuse(group, 'creepage', 'must not be formula where cksi, ceta or ' // &
+                            'cphi_rad_per_mm stand', '')
         end associate
         if (text_of(group, 'sign_set', 'B') == 'A') case%creepage_signs = creepage_set_a
         case%given%is_given = [is_set(group, 'Fx_N'), is_set(group, 'Fy_N')]

@@ -328,8 +328,9 @@ module faststrip_command_settings_table
                   range=from_0, default='0.5')]
 
     type(setting_t), parameter :: of_sweep(*) = [ &
-        setting_t('sweep', 'shifts_mm', a_list, 'lateral displacements', most=most_shifts, &
-                  quantity=of_shift), &
+        setting_t('sweep', 'shifts_mm', a_list, 'lateral displacements; ' // &
+                  'the same one several times, with creepages, for a creep-force curve', &
+                  most=most_shifts, quantity=of_shift), &
         setting_t('sweep', 'load_N', a_list, 'normal forces, one a shift', most=most_shifts, &
                   range=above_0), &
         setting_t('sweep', 'cksi', a_list, 'longitudinal creepages, one a shift', &
