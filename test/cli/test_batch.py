@@ -342,6 +342,16 @@ class Sweep(ProgramTest):
             for name in list(row)[4:9] + RESULT_COLUMNS[1:]:
                 self.assertEqual(row[name], "", name)
 
+    def test_equal_shifts_have_creepages_of_their_own(self):
+        self.write("s.nml", profile_case(extra="&sweep shifts_mm = 3*1.0\n cksi = 0, 1e-3, 2e-3\n"
+                                               " load_N = 1e5, 9e4, 8e4 /\n"))
+        rows = [row for row in self.good("sweep", "s.nml") if row["tangential"] == "faststrip"]
+        self.assertEqual([float(row["cksi"]) for row in rows], [0.0, 1e-3, 2e-3])
+        self.assertEqual([float(row["N_N"]) for row in rows], [1e5, 9e4, 8e4])
+        forces = [float(row["Fx_N"]) for row in rows]
+        self.assertLess(forces[2], forces[1])
+        self.assertLess(forces[1], forces[0] - 5e3)
+
     def test_bad_sweeps(self):
         self.write("gap.csv", gap_text(parabola))
         for text, says in (
