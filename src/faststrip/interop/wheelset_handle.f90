@@ -87,7 +87,8 @@ contains
         integer :: failure
 
         call clear_status(status)
-        allocate (handle%workspace, handle%asked, stat=failure)
+        allocate (handle%workspace, stat=failure)
+        if (failure == 0) allocate (handle%asked, stat=failure)
         if (failure /= 0) call refuse_memory(status)
     end subroutine allocate_workspace
 
