@@ -57,6 +57,14 @@ class Fuzz(LabTest):
                     self.assertGreater(float(row["pmax_MPa"]), 0.0, row)
                     self.assertGreaterEqual(float(row["centre"]), 0.0, row)
 
+    def test_cells_find_the_patches_of_what_does_not_converge_at_once(self):
+        # Cases that end in fallback_used or fewer_strips without coarse cells, the last one where
+        # cells that press again are as long as they were.
+        for seed, case in ((9001, 606), (9001, 759), (9002, 79), (9001, 989)):
+            with self.subTest((seed, case)):
+                self.succeed("fuzz", "--seed", seed, "--case", case, "-o", "one.csv")
+                self.assertEqual([row["status"] for row in self.read("one.csv")], ["ok"])
+
     def test_cells_close_the_gap(self):
         for family in ("slender", "offset", "worn"):
             with self.subTest(family):
