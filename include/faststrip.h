@@ -674,8 +674,7 @@ typedef struct faststrip_wheelset_contact {
 typedef struct faststrip_wheelset_result {
     int status[2];     /* the worst of its contacts */
     int n_contacts[2]; /* number of contacts */
-    int n_solutions[2]; /* contact problems that were solved; 0: a warm start that asked what the
-                         * last call did, whose result stands, or a table answered */
+    int n_solutions[2]; /* contact problems that were solved */
     double z[2];       /* of the wheelset's centre, mm */
     double roll;       /* rad */
     double force[2][3]; /* on the rail, in the track, N */

@@ -10,6 +10,39 @@ from installed import HOSTS, ROOT, HostTest
 R0, S = 460.0, 750.0
 
 
+# A wheelset that is asked the same again after a setter: what changes its forces has to count. Each
+# row has to print another force than the one before.
+SETTERS = """
+      PROGRAM SETTER
+      INTEGER IOPT(9), NPROF(4), IW(8), IDMND(4), N, INFO, K
+      DOUBLE PRECISION PAR(9), SETUP(9), Y(1), Z(1), S(11), DMND(4)
+      DOUBLE PRECISION CONT(48, 16), WRES(27)
+      DATA S /11*0.0D0/, DMND /4*0.0D0/, IDMND /0, 0, 0, 1/
+      CALL FSDFLT(IOPT, PAR)
+      CALL FSWDFT(SETUP)
+      PAR(5) = 0.3D0
+      NPROF(1) = -1
+      NPROF(2) = 0
+      NPROF(3) = -2
+      NPROF(4) = 0
+      CALL FSWNEW(IOPT, PAR, SETUP, NPROF, Y, Z, IW, 8, INFO)
+      IF (INFO .NE. 0) STOP 1
+      S(1) = 6.0D0
+      S(2) = 0.5D0
+      S(5) = 2.0D4
+      S(7) = 20.0D0
+      DO 10 K = 1, 5
+        IF (K .EQ. 2) CALL FSDAMP(IW, 1.0D-2, 0.0D0, INFO)
+        IF (K .EQ. 3) CALL FSSPRI(IW, 0.0D0, 1.0D5, INFO)
+        IF (K .EQ. 4) CALL FSCURV(IW, 1, INFO)
+        IF (INFO .GE. 100) STOP 2
+        CALL FSWSLV(IW, S, IDMND, DMND, 16, N, CONT, WRES, INFO)
+        IF (INFO .GE. 100) STOP 3
+        WRITE (*, '(A, Z17)') 'force', TRANSFER(WRES(7), 1_8)
+   10 CONTINUE
+      END
+"""
+
 # Each row: what it is, the number that has to come, the statements that lead to it, and the number
 # where that is not INFO. A row goes on where the one before it has left off.
 ROWS = (
@@ -219,6 +252,14 @@ class Wheelset(HostTest):
             self.assertEqual(one[17], -other[18])
             self.assertEqual(one[19:], [other[20], other[19], other[21]])
         self.assertEqual(self.lines[1][1:], self.lines[2][1:])
+
+    def test_what_was_asked_is_solved_anew_by_another_model(self):
+        (self.folder / "setter.f").write_text(SETTERS, encoding="utf-8")
+        self.shell("gfortran -std=gnu -O1 setter.f $(pkg-config --libs faststrip) -o setter")
+        forces = self.shell("./setter").splitlines()
+        for before, after in zip(forces[:3], forces[1:4], strict=True):
+            self.assertNotEqual(before, after)
+        self.assertEqual(forces[3], forces[4])
 
     def test_the_wheels_carry_the_load(self):
         for row in sum(self.calls.values(), []):

@@ -26,7 +26,7 @@ module faststrip_command_contact_prepared_case
     type, extends(contact_case_t) :: prepared_case_t
         type(rigid_contact_t) :: rigid_contact !! first point of contact, if there are profiles
         real(wp) :: shift = 0.0_wp             !! lateral shift of the wheelset, mm
-        integer :: listed = 0                  !! its number in the lists of the sweep, 0: none
+        integer :: listed = 0                  !! number in the lists whose values count, 0: none
     end type prepared_case_t
 
 contains

@@ -8,6 +8,7 @@ module faststrip_command_settings_case_file
     use faststrip_wheelset_types, only: standard_accuracy
     use faststrip_command_settings_friction, only: read_friction_group
     use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, need_groups, &
+                                                stands_in, &
                                                 read_group, is_set, number_of, text_of, list_of, &
                                                 beside, take_file, refuse, refuse_each
     use faststrip_command_settings_methods, only: settings_t, put_setting
@@ -47,14 +48,16 @@ contains
         logical :: from_profiles
 
         call read_case_text(path, .false., content)
-        call read_group(content, 'contact', group)
-        from_profiles = len_trim(text_of(group, 'gap_file', '')) == 0
+        from_profiles = .not. stands_in(content, 'contact', 'gap_file')
         if (from_profiles) then
             call need_groups(content, [character(len=8) :: 'contact', 'material', 'wheel', &
                                        'rail', 'motion'])
         else
             call need_groups(content, [character(len=8) :: 'material', 'motion'])
         end if
+        call read_group(content, 'contact', group)
+        from_profiles = len_trim(text_of(group, 'gap_file', '')) == 0
+        if (from_profiles) call need_groups(content, [character(len=8) :: 'wheel', 'rail'])
         call read_contact_group(group, case)
         call read_settings(content, 'material', case, group)
         call read_bodies(content, from_profiles, .false., case%bodies)

@@ -21,8 +21,8 @@ module faststrip_command_settings_group
     implicit none
     private
 
-    public :: case_text_t, group_t, read_case_text, need_groups, read_group, is_set, given_value
-    public :: number_of, text_of, list_of, beside, take_file, refuse, refuse_each
+    public :: case_text_t, group_t, read_case_text, need_groups, stands_in, read_group, is_set
+    public :: given_value, number_of, text_of, list_of, beside, take_file, refuse, refuse_each
 
     ! Tuned [lines]: most of a case file. Origin: capacity: the longest lists take a few hundred.
     integer, parameter :: most_case_lines = 10000
@@ -110,6 +110,22 @@ contains
                              content%file // ')')
     end subroutine need_groups
 
+    !> Does a name stand in a group, whatever its value?
+    logical function stands_in(content, name, key) result(stands)
+        type(case_text_t), intent(in) :: content !! a case file
+        character(len=*), intent(in) :: name     !! of the group, lower case, without ampersand
+        character(len=*), intent(in) :: key      !! lower case
+
+        type(group_t) :: group
+        integer :: i
+
+        call start_group(content, name, group)
+        stands = .false.
+        do i = max(group%first, 1), group%last
+            stands = stands .or. index(lower_case(content%line(i)%text), key) > 0
+        end do
+    end function stands_in
+
     ! A group without its values.
     subroutine start_group(content, name, group)
         type(case_text_t), intent(in) :: content
@@ -150,11 +166,11 @@ contains
         integer :: i, length, longest
 
         words = ''
-        longest = enough_alike - 1
+        longest = enough_alike
         do i = 1, size(group%row)
             key = trim(settings(group%row(i))%key)
             length = alike(lower_case(key), lower_case(name))
-            if (length < longest .or. length < enough_alike) cycle
+            if (length < longest) cycle
             if (length > longest) words = ''
             longest = length
             words = words // ' or ' // key
@@ -230,6 +246,8 @@ contains
 
         call start_group(content, name, group)
         if (group%first == 0) return
+        unknown = ''
+        line = 0
         call find_values(content, group, unknown, line)
         missing = ''
         do i = 1, size(group%row)
@@ -284,6 +302,8 @@ contains
                 if (equals > len(line)) exit
                 name = trim_blanks(line(name_at:equals - 1))
                 from = equals + 1
+                if (len(name) == 0) &
+                    call refuse_line(group%file, i, 'a name must stand before =', trim_blanks(line))
                 row = find_setting(group%name, name)
                 if (row == 0) then
                     at = -1

@@ -1,7 +1,7 @@
 !> The case of a wheelset: both wheels and rails, friction, methods, and one state or none.
 module faststrip_command_wheelset_case
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t
+    use faststrip_base_status, only: status_t, is_error
     use faststrip_geometry_profile, only: profile_t
     use faststrip_contact_methods, only: normal_table, tangential_table, normal_auto, &
                                          normal_method_name, tangential_method_name
@@ -18,7 +18,7 @@ module faststrip_command_wheelset_case
     implicit none
     private
 
-    public :: wheelset_case_t, read_wheelset_case, make_model
+    public :: wheelset_case_t, read_wheelset_case, make_model, try_model
 
     !> A case of two wheels.
     type, extends(settings_t) :: wheelset_case_t
@@ -68,8 +68,19 @@ contains
         type(wheelset_case_t), intent(in) :: case      !! of it
         type(wheelset_model_t), intent(inout) :: model !! made
 
-        type(profile_t) :: wheels(2), rails(2)
         type(status_t) :: status
+
+        call try_model(case, model, status)
+        call fail_on_error(status, path)
+    end subroutine make_model
+
+    !> The same, or its status.
+    subroutine try_model(case, model, status)
+        type(wheelset_case_t), intent(in) :: case      !! as it was read
+        type(wheelset_model_t), intent(inout) :: model !! made
+        type(status_t), intent(out) :: status          !! those of `make_wheelset` and setters
+
+        type(profile_t) :: wheels(2), rails(2)
 
         associate (bodies => case%bodies)
             wheels = [bodies%wheel%profile, bodies%left_wheel%profile]
@@ -77,14 +88,12 @@ contains
             call make_wheelset(wheels, rails, bodies%wheelset, bodies%left_wheel%radius, &
                                bodies%track, case%contact_case_t, model, status)
         end associate
-        call fail_on_error(status, path)
-        call set_damping(model, case%damping, case%speed_floor, status)
-        call fail_on_error(status, path)
-        call set_rail_stiffness(model, case%rail_stiffness, status)
-        call fail_on_error(status, path)
+        if (.not. is_error(status)) &
+            call set_damping(model, case%damping, case%speed_floor, status)
+        if (.not. is_error(status)) call set_rail_stiffness(model, case%rail_stiffness, status)
         if (case%gap_height_is_given) model%gap_height = case%gap_height
         model%profile_accuracy = case%profile_accuracy
-    end subroutine make_model
+    end subroutine try_model
 
     !> A table is made of many solutions of the library's methods.
     subroutine refuse_dear_methods(group, case)

@@ -3,7 +3,7 @@
 module faststrip_command_wheelset_point_spacing
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, clear_status, is_error
+    use faststrip_base_status, only: status_t, is_error
     use faststrip_contact_case, only: asked_t
     use faststrip_contact_methods, only: normal_strip, tangential_faststrip
     use faststrip_geometry_profile, only: thin_profile, profile_curve
@@ -13,7 +13,7 @@ module faststrip_command_wheelset_point_spacing
                                         wheelset_demand_t, wheelset_result_t, wheel_contact_t, &
                                         wheel_result_t, side_right, side_left
     use faststrip_command_contact_point_spacing, only: point_spacing_t, name_spacing
-    use faststrip_command_wheelset_case, only: wheelset_case_t, make_model
+    use faststrip_command_wheelset_case, only: wheelset_case_t, try_model
     implicit none
     private
 
@@ -37,13 +37,13 @@ module faststrip_command_wheelset_point_spacing
 contains
 
     !> Make the wheelsets, with strips and FASTSTRIP and nothing else.
-    subroutine prepare_spacing(path, case, spacing, status)
-        character(len=*), intent(in) :: path            !! name of the case file
-        type(wheelset_case_t), intent(in) :: case       !! of it
-        type(wheelset_spacing_t), intent(out) :: spacing !! not known of standard profiles
-        type(status_t), intent(out) :: status           !! those of `reserve_wheelset`
+    subroutine prepare_spacing(case, spacing)
+        type(wheelset_case_t), intent(in) :: case       !! as it was read
+        type(wheelset_spacing_t), intent(out) :: spacing
+            !! not known of standard profiles, nor of those that have too few points
 
         type(wheelset_case_t) :: thinned
+        type(status_t) :: status
         integer :: first
 
         associate (bodies => case%bodies)
@@ -60,13 +60,11 @@ contains
         thinned%wear_law%n = 0
         do first = 0, 2
             if (first > 0) call thin(first, case, thinned, status)
-            if (is_error(status)) then
-                ! Too few points to leave out any.
-                call clear_status(status)
-                return
-            end if
-            call make_model(path, thinned, spacing%model(first + 1))
-            call reserve_wheelset(spacing%workspace(first + 1), spacing%model(first + 1), status)
+            if (.not. is_error(status)) call try_model(thinned, spacing%model(first + 1), status)
+            if (.not. is_error(status)) &
+                call reserve_wheelset(spacing%workspace(first + 1), spacing%model(first + 1), &
+                                      status)
+            ! Too few points to leave out any.
             if (is_error(status)) return
         end do
         spacing%is_known = .true.

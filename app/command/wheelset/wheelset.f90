@@ -154,8 +154,7 @@ contains
                 call reserve_wheelset(run%workspaces(i), run%model, status)
             call fail_on_error(status)
         end do
-        call prepare_spacing(command%arguments(1)%text, case, run%spacing, status)
-        call fail_on_error(status)
+        call prepare_spacing(case, run%spacing)
         if (.not. case%has_state) then
             call read_csv(option_text(command, '--states', ''), table, status)
             call fail_on_error(status)
@@ -205,7 +204,8 @@ contains
         end do
         call refuse_absent_profiles(run)
         call close_drawn(run)
-        if (run%is_drawn .and. table%n_rows > 1 .and. .not. given(command, '--profiles-of')) &
+        if (run%is_drawn .and. run%has_profiles .and. table%n_rows > 1 &
+            .and. .not. given(command, '--profiles-of')) &
             call note('the picture is of the state ' // run%profiles_of // &
                       '; --profiles-of names another one')
         call close_outputs(command, outputs, run%writer, shown)

@@ -32,7 +32,8 @@ module faststrip_contact_given_forces
     use faststrip_contact_cut, only: solve_tried
     use faststrip_contact_method, only: contact_result_t, workspace_t, tangential_method_t, &
                                         found_motion_t
-    use faststrip_contact_method_surface, only: lay_strips, find_lean, lateral_share
+    use faststrip_contact_method_surface, only: lay_strips, find_lean, lateral_share, &
+                                               slip_of_adhesion
     use faststrip_contact_methods, only: method_t, tangential_none, tangential_linear, &
                                          tangential_she, tangential_polach
     use faststrip_normal_limitations, only: name_creepage_resolution
@@ -395,6 +396,7 @@ contains
         type(status_t), intent(inout) :: status          !! limitations so far; `st_under_resolved`
 
         type(contact_case_t) :: found
+        real(wp) :: scale
 
         found%contact_terms_t = case%contact_terms_t
         found%creepage = result%creepage
@@ -405,7 +407,13 @@ contains
                                      *product_of(abs(workspace%found%rates), &
                                                  [errors%fx, errors%fy])
         end associate
-        call name_creepage_resolution(result%creepage_errors(1), result%creepage_errors(2), &
-                                      case%force_limit, status)
+        ! Over the creepage, or that at which nearly all would slide.
+        associate (creepage => result%creepage)
+            scale = max(hypot(creepage%cksi, creepage%ceta), &
+                        slip_of_adhesion(workspace%mu*result%normal%load, result%normal%area, &
+                                         case%material))
+        end associate
+        call name_creepage_resolution(result%creepage_errors(1)/scale, &
+                                      result%creepage_errors(2)/scale, case%force_limit, status)
     end subroutine estimate_given_forces
 end module faststrip_contact_given_forces

@@ -34,13 +34,14 @@ module faststrip_interop_wheelset_handle
     public :: wheelset_solve
     public :: contact_count, contact_place, find_contact, contact_mirror
     public :: copy_wheelset, save_memory, restore_memory
-    public :: pitch_rate_of, wheelset_derivatives, use_lookup
+    public :: pitch_rate_of, wheelset_derivatives, use_lookup, forget_asked
 
     ! Given: `FASTSTRIP_LOCKED_WHEELS`, what stands for a pitch rate of 0.
     real(wp), parameter :: locked_wheels = 1.0e300_wp
 
     !> What was asked, as it was given, and how that ended.
     type :: asked_t
+        logical :: counts = .false. !! would it end so again?
         type(wheelset_state_t) :: state
         type(wheelset_demand_t) :: demand
         type(status_t) :: status
@@ -217,13 +218,22 @@ contains
         to%contact(:to%n) = from%contact(:to%n)
     end subroutine copy_memory
 
-    !> What the next solution of a handle depends on, as bytes.
+    !> A model that was changed answers anew what was asked the last time.
+    pure subroutine forget_asked(handle)
+        type(wheelset_handle_t), intent(inout) :: handle !! its result stays
+
+        if (allocated(handle%asked)) handle%asked%counts = .false.
+    end subroutine forget_asked
+
+    !> What the next solution of a handle depends on, as bytes. What was asked is not among them:
+    !> afterwards it is solved anew here as there.
     subroutine save_memory(handle, bytes, n)
         type(wheelset_handle_t), intent(inout) :: handle           !! its status tells how it ended
         integer(int8), intent(inout), target, contiguous :: bytes(:) !! the first n are written
         integer(int64), intent(out) :: n                           !! how many there are
 
         call save_wheelset(handle%model, handle%workspace, bytes, n, handle%status)
+        call forget_asked(handle)
     end subroutine save_memory
 
     !> Take it over: of the last solution nothing can be asked afterwards.
@@ -285,7 +295,7 @@ contains
     end subroutine take_table
 
     !> Solve the contacts of a wheelset; its result has them, unless they are more than fit. A warm
-    !> start that asks what was asked the last time has its result: no contact problems then.
+    !> start that asks what was asked the last time has its result.
     subroutine wheelset_solve(handle, state, demand, warm_start, capacity, n)
         type(wheelset_handle_t), intent(inout) :: handle !! its status tells how it ended
         type(wheelset_state_t), intent(in) :: state      !! position and velocity
@@ -303,9 +313,9 @@ contains
         if (is_error(handle%status)) then
             handle%has = .false.
             return
-        else if (warm_start .and. any(handle%has) .and. is_same_state(handle%asked%state, state) &
+        else if (warm_start .and. any(handle%has) .and. handle%asked%counts &
+                 .and. is_same_state(handle%asked%state, state) &
                  .and. is_same_demand(handle%asked%demand, demand)) then
-            handle%result%wheel%solutions = 0
             handle%status = handle%asked%status
             call tell_count(handle, capacity, n)
             return
@@ -333,6 +343,7 @@ contains
             end do
         end do
         call restore_environment(environment)
+        handle%asked%counts = .true.
         handle%asked%state = state
         handle%asked%demand = demand
         handle%asked%status = handle%status

@@ -366,13 +366,13 @@ contains
 
     !> The same of creepages that were found.
     pure subroutine name_creepage_resolution(cksi, ceta, limit, status)
-        real(wp), intent(in) :: cksi            !! estimated error of cksi
+        real(wp), intent(in) :: cksi            !! estimated error of cksi, over the creepage
         real(wp), intent(in) :: ceta            !! of ceta
         real(wp), intent(in) :: limit           !! largest that is called resolved
         type(status_t), intent(inout) :: status !! limitations so far, or an error, which stays
 
         call name_first_above([cksi, ceta], [character(len=5) :: ' cksi', ' ceta'], &
-                              [character(len=1) :: '', ''], limit, status)
+                              spread(' of the creepage', 1, 2), limit, status)
     end subroutine name_creepage_resolution
 
     !> Name the first estimate that is above a limit.

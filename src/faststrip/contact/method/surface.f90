@@ -10,7 +10,7 @@
 !> strips' places. Pressures and their own sums stay those of the plane.
 module faststrip_contact_method_surface
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_material, only: combined_shear_modulus
+    use faststrip_base_material, only: combined_shear_modulus, material_t
     use faststrip_base_status, only: status_t, set_status, is_error, number_text, &
                                      st_bad_argument, st_out_of_range, st_under_resolved
     use faststrip_contact_case, only: contact_case_t
@@ -28,6 +28,7 @@ module faststrip_contact_method_surface
 
     public :: check_surface, lay_strips, flatten_load, turn_forces, find_lean, lateral_share
     public :: conformal_turn, add_pressure_errors, shift_pressure_errors, add_turn_errors
+    public :: slip_of_adhesion
 
     ! What a half-space leaves out of a contact that turns by 2 theta, over theta^2; `conformal`
     ! begins at theta = 0.17.
@@ -174,8 +175,8 @@ contains
             associate (c => sqrt(result%normal%area/pi), creepage => result%creepage, &
                        pitch => 2.0_wp*max(gap_inv2r(workspace%solver%curve, 0.0_wp), 0.0_wp))
                 slip = norm2([creepage%cksi, creepage%ceta, 0.5_wp*c*creepage%cphi])
-                added = added + pitch*hypot(depth, 0.5_wp*c*lean)/max(slip, bound/(stiffness &
-                        *combined_shear_modulus(case%material)*result%normal%area))
+                added = added + pitch*hypot(depth, 0.5_wp*c*lean) &
+                        /max(slip, slip_of_adhesion(bound, result%normal%area, case%material))
             end associate
         end if
         associate (errors => result%force_errors)
@@ -187,6 +188,15 @@ contains
                                            case%force_limit, status)
         end associate
     end subroutine add_turn_errors
+
+    !> The creepage at which the linear force of a round patch is mu N.
+    pure real(wp) function slip_of_adhesion(bound, area, material) result(slip)
+        real(wp), intent(in) :: bound            !! mu N, N
+        real(wp), intent(in) :: area             !! of the patch, mm2
+        type(material_t), intent(in) :: material !! moduli in MPa
+
+        slip = bound/(stiffness*combined_shear_modulus(material)*area)
+    end function slip_of_adhesion
 
     !> Do the forces of a method act at the strips' places along x?
     pure logical function acts_at_places(tangential)

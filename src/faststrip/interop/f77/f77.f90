@@ -81,7 +81,8 @@ module faststrip_interop_f77
                                           read_steps
     use faststrip_interop_classic, only: classic_fastsim, classic_hertz, classic_kalker
     use faststrip_interop_profile_points, only: gap_of_points, copy_gap, n_setup, n_contact
-    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset
+    use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset, &
+                                                 forget_asked
     use faststrip_geometry_gap, only: gap_t
     implicit none
     private
@@ -458,7 +459,10 @@ contains
 
         call find_either(iwork, handle, wheelset, info)
         if (associated(handle)) handle%case%curved = curved /= 0
-        if (associated(wheelset)) wheelset%model%case%curved = curved /= 0
+        if (associated(wheelset)) then
+            wheelset%model%case%curved = curved /= 0
+            call forget_asked(wheelset)
+        end if
     end subroutine fscurv
 
     !> CALL FSERRS(IWORK, ERR, INFO)
@@ -536,6 +540,7 @@ contains
         else
             wheelset%status = status
             if (.not. is_error(status)) wheelset%model%case%wanted = wanted
+            call forget_asked(wheelset)
         end if
     end subroutine fswant
 

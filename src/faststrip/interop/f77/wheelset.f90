@@ -64,7 +64,7 @@ module faststrip_interop_f77_wheelset
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, free_wheelset, find_wheelset, &
                                                  take_wheels, wheelset_solve, contact_place, &
                                                  find_contact, contact_mirror, copy_wheelset, &
-                                                 use_lookup, &
+                                                 use_lookup, forget_asked, &
                                                  pitch_rate_of
     use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
                                               default_dimensions, new_wheelset
@@ -257,6 +257,7 @@ contains
         call find_wheelset(number_of(iwork), handle, info)
         if (info /= st_ok) return
         call set_damping(handle%model, damping, speed_floor, handle%status)
+        call forget_asked(handle)
         info = handle%status%code
     end subroutine fsdamp
 
@@ -276,6 +277,7 @@ contains
         call find_wheelset(number_of(iwork), handle, info)
         if (info /= st_ok) return
         call set_rail_stiffness(handle%model, [stiffness_y, stiffness_z], handle%status)
+        call forget_asked(handle)
         info = handle%status%code
     end subroutine fsspri
 
