@@ -71,9 +71,9 @@ module faststrip_wheelset_solve
     ! chosen: as loads are found.
     real(wp), parameter :: near_deflection = 1.0e-8_wp
     ! Tuned [solutions]: of a wheelset, until they are in balance; in a quarter of them steps that
-    ! leave more than before are taken back. Origin: safeguard: three to six are taken, on rails that
-    ! go to the side by millimetres up to 60; of 250 loads on springs at random 249 are found again
-    ! by their height.
+    ! leave more than before are taken back. Origin: safeguard: three to six are taken, on rails
+    ! that go to the side by millimetres up to 60; of 250 loads on springs at random 249 are found
+    ! again by their height.
     integer, parameter :: most_deflections = 90
 
     !> What contacts carry about the axle.
