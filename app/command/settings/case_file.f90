@@ -8,9 +8,9 @@ module faststrip_command_settings_case_file
     use faststrip_wheelset_types, only: standard_accuracy
     use faststrip_command_settings_friction, only: read_friction_group
     use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, need_groups, &
-                                                stands_in, &
-                                                read_group, is_set, number_of, text_of, list_of, &
-                                                beside, take_file, refuse, refuse_each
+                                                stands_in, read_group, is_set, number_of, &
+                                                text_of, list_of, beside, take_file, refuse, &
+                                                refuse_each
     use faststrip_command_settings_methods, only: settings_t, put_setting
     use faststrip_command_settings_profiles, only: bodies_t, read_bodies
     use faststrip_command_settings_table, only: settings, value_t, a_path

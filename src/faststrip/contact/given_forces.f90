@@ -413,7 +413,9 @@ contains
                         slip_of_adhesion(workspace%mu*result%normal%load, result%normal%area, &
                                          case%material))
         end associate
-        call name_creepage_resolution(result%creepage_errors(1)/scale, &
-                                      result%creepage_errors(2)/scale, case%force_limit, status)
+        if (scale > 0.0_wp) &
+            call name_creepage_resolution(result%creepage_errors(1)/scale, &
+                                          result%creepage_errors(2)/scale, case%force_limit, &
+                                          status)
     end subroutine estimate_given_forces
 end module faststrip_contact_given_forces

@@ -372,7 +372,8 @@ contains
         type(status_t), intent(inout) :: status !! limitations so far, or an error, which stays
 
         call name_first_above([cksi, ceta], [character(len=5) :: ' cksi', ' ceta'], &
-                              spread(' of the creepage', 1, 2), limit, status)
+                              [character(len=16) :: ' of the creepage', ' of the creepage'], &
+                              limit, status)
     end subroutine name_creepage_resolution
 
     !> Name the first estimate that is above a limit.
