@@ -260,9 +260,9 @@ class Interfaces(HostTest):
         for change in ({"y_rate": 1.0}, {"axle_load": 1.3e5},
                        {"right_rail": package.RailState(z=1e-3)}):
             with self.subTest(change):
-                wheelset.solve(**state, **asked)
+                before = wheelset.solve(**state, **asked)
                 other = wheelset.solve(**{**state, **asked, **change})
-                self.assertNotEqual(other.force.tobytes(), first.force.tobytes())
+                self.assertNotEqual(other.force.tobytes(), before.force.tobytes())
 
     def test_saved_bytes_go_on_alike_where_a_state_is_asked_again(self):
         package = self.import_package()
