@@ -117,7 +117,7 @@ class CaseFiles(ProgramTest):
             (good.replace("load_N", "loadN").replace("mu ", "mue "),
              ["(c.nml:4)", "&contact unknown name: loadN, did you mean load_N",
               "&material unknown name: mue, did you mean mu"]),
-            ("&contact load_N = 1 /\n", ["missing groups: &material, &wheel, &rail, &motion"]),
+            ("&contact load_N = 1 /\n", ["missing groups: &material, &motion, &wheel, &rail"]),
             (gap_case(load="1e5\n colour = 'red'"), ["(c.nml:5)", "colour"]),
             (good.replace("&motion", "&emotion"), ["(c.nml:9)", "&emotion"]),
             (good + "&mystery x = 1 /\n", ["(c.nml:12)", "&mystery"]),

@@ -43,22 +43,17 @@ contains
         character(len=*), intent(in) :: path !! name of the `.nml` file
         type(case_t), intent(out) :: case    !! checked
 
+        ! The last two are not needed with a gap file.
+        character(len=*), parameter :: needed(*) = [character(len=8) :: 'contact', 'material', &
+                                                    'motion', 'wheel', 'rail']
         type(case_text_t) :: content
         type(group_t) :: group
         logical :: from_profiles
 
         call read_case_text(path, .false., content)
-        from_profiles = .not. stands_in(content, 'contact', 'gap_file')
-        if (from_profiles) then
-            call need_groups(content, [character(len=8) :: 'contact', 'material', 'wheel', &
-                                       'rail', 'motion'])
-        else
-            call need_groups(content, [character(len=8) :: 'material', 'motion'])
-        end if
-        call read_group(content, 'contact', group)
-        from_profiles = len_trim(text_of(group, 'gap_file', '')) == 0
-        if (from_profiles) call need_groups(content, [character(len=8) :: 'wheel', 'rail'])
-        call read_contact_group(group, case)
+        call need_groups(content, needed(:merge(3, 5, stands_in(content, 'contact', 'gap_file'))))
+        call read_contact_group(content, case)
+        from_profiles = len(case%gap_file) == 0
         call read_settings(content, 'material', case, group)
         call read_bodies(content, from_profiles, .false., case%bodies)
         call read_motion_group(content, from_profiles, case)
@@ -129,10 +124,13 @@ contains
         end do
     end subroutine read_settings
 
-    subroutine read_contact_group(group, case)
-        type(group_t), intent(in) :: group
+    subroutine read_contact_group(content, case)
+        type(case_text_t), intent(in) :: content
         type(case_t), intent(inout) :: case
 
+        type(group_t) :: group
+
+        call read_group(content, 'contact', group)
         case%name = text_of(group, 'name', 'case')
         case%gap_file = trim(text_of(group, 'gap_file', ''))
         if (len(case%gap_file) > 0) then

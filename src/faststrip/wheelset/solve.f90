@@ -332,10 +332,9 @@ contains
             solutions = solutions + result%wheel%solutions
             result%wheel%solutions = solutions
             if (is_error(status)) then
-                if (is_first .and. status%code /= st_no_contact) return
-                if (.not. any(abs(step) > 0.0_wp)) return
+                if (is_first .and. (status%code /= st_no_contact .or. all(step == 0.0_wp))) return
                 ! Rails that gave way too far, mostly to where nothing touches them.
-                step = 0.5_wp*step
+                step = merge(0.0_wp, 0.5_wp, is_first)*step
                 cycle
             end if
             force = 0.0_wp
