@@ -110,7 +110,8 @@ module faststrip
                                         wheelset_demand_t, wheelset_result_t, wheel_contact_t, &
                                         side_right, side_left, demand_position, demand_loads, &
                                         demand_axle_load, demand_rest
-    use faststrip_wheelset_solve, only: make_wheelset, reserve_wheelset, solve_wheelset
+    use faststrip_wheelset_model, only: make_wheelset, reserve_wheelset
+    use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_derivatives, only: find_wheelset_derivatives
     use faststrip_wheelset_field, only: find_wheel_field
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips

@@ -18,7 +18,8 @@ module faststrip_tabulate_contacts
     use faststrip_lookup_wheel, only: n_wheel_place
     use faststrip_tabulate_forces, only: choice_t, solve_forces
     use faststrip_tabulate_states, only: shape_scale, most_slender
-    use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
+    use faststrip_wheelset_model, only: reserve_wheelset
+    use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, wheelset_result_t, &
                                         wheelset_demand_t, wheel_contact_t, most_contacts, &
                                         side_right

@@ -6,7 +6,7 @@ module faststrip_command_wheelset_case
     use faststrip_contact_methods, only: normal_table, tangential_table, normal_auto, &
                                          normal_method_name, tangential_method_name
     use faststrip_wheelset_types, only: wheelset_model_t, standard_accuracy
-    use faststrip_wheelset_solve, only: make_wheelset, set_damping, set_rail_stiffness
+    use faststrip_wheelset_model, only: make_wheelset, set_damping, set_rail_stiffness
     use faststrip_command_program_console, only: fail_on_error
     use faststrip_command_settings_case_file, only: read_settings, read_thermal_group
     use faststrip_command_settings_friction, only: read_friction_group

@@ -8,7 +8,8 @@ module faststrip_command_wheelset_point_spacing
     use faststrip_contact_methods, only: normal_strip, tangential_faststrip
     use faststrip_geometry_profile, only: thin_profile, profile_curve
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
-    use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
+    use faststrip_wheelset_model, only: reserve_wheelset
+    use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, wheel_contact_t, &
                                         wheel_result_t, side_right, side_left

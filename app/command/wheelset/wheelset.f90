@@ -10,7 +10,8 @@ module faststrip_command_wheelset
                                         wheelset_demand_t, wheelset_result_t, &
                                         side_right, side_left, most_contacts
     use faststrip_kalker_methods, only: kalker_methods_t, add_kalker
-    use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
+    use faststrip_wheelset_model, only: reserve_wheelset
+    use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_tangential_types, only: tangential_field_t
     use faststrip_wheelset_field, only: find_wheel_field
     use faststrip_wheelset_strips, only: wheel_strips_t, find_wheel_strips

@@ -11,7 +11,8 @@ module faststrip_lab_studies_host
     use faststrip_files_csv, only: csv_writer_t, put_header, put_cell, put_cells, end_row
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_derivatives, only: find_wheelset_derivatives
-    use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
+    use faststrip_wheelset_model, only: reserve_wheelset
+    use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, side_right, &
                                         demand_position, demand_loads

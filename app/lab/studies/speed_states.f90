@@ -7,7 +7,8 @@ module faststrip_lab_studies_speed_states
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t
-    use faststrip_wheelset_solve, only: reserve_wheelset, solve_wheelset
+    use faststrip_wheelset_model, only: reserve_wheelset
+    use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_lab_checkout, only: in_checkout
     use faststrip_command_program_clock, only: cpu_microseconds
     use faststrip_command_program_console, only: fail_on_error

@@ -17,7 +17,7 @@ module faststrip_interop_wheelset_new
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, allocate_wheelset, &
                                                  allocate_workspace
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
-    use faststrip_wheelset_solve, only: make_wheelset, set_damping, set_rail_stiffness, &
+    use faststrip_wheelset_model, only: make_wheelset, set_damping, set_rail_stiffness, &
                                         reserve_wheelset
     use faststrip_wheelset_types, only: side_right, side_left
     implicit none

@@ -11,7 +11,7 @@ module faststrip_wheelset_balance
                                            roll_search_t, next_roll, most_roll_step
     use faststrip_wheelset_height, only: set_outline, try_height
     use faststrip_wheelset_loads, only: start_afresh
-    use faststrip_wheelset_share, only: solve_for_share
+    use faststrip_wheelset_balance_share, only: solve_for_share
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_demand_t, wheelset_result_t, &
                                         wheelset_workspace_t, side_right, side_left
     implicit none

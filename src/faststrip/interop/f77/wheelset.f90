@@ -68,7 +68,7 @@ module faststrip_interop_f77_wheelset
                                                  pitch_rate_of
     use faststrip_interop_wheelset_new, only: dimensions_t, profile_source_t, &
                                               default_dimensions, new_wheelset
-    use faststrip_wheelset_solve, only: set_damping, set_rail_stiffness, set_roller, &
+    use faststrip_wheelset_model, only: set_damping, set_rail_stiffness, set_roller, &
                                         reserve_wheelset
     use faststrip_wheelset_types, only: wheelset_demand_t, side_right, side_left
     implicit none

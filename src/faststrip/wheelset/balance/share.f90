@@ -4,7 +4,7 @@
 !> The moment grows with the load that the right wheel carries, nearly in proportion: by the lever
 !> of both wheels. Where it is too small with all of the load on one wheel, and the other just
 !> touching, that other wheel would lift.
-module faststrip_wheelset_share
+module faststrip_wheelset_balance_share
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
@@ -88,4 +88,4 @@ contains
                         // 'the axle load of ' // trim(number_text(demand%axle_load)) // ' N on ' &
                         // 'the other one alone the roll moment is not reached')
     end subroutine solve_for_share
-end module faststrip_wheelset_share
+end module faststrip_wheelset_balance_share
