@@ -130,9 +130,11 @@ contains
 
     !> Set a status to "all is well".
     pure subroutine clear_status(status)
-        type(status_t), intent(out) :: status !! what the caller reads
+        type(status_t), intent(inout) :: status !! what the caller reads
 
         status%code = st_ok
+        status%message = ''
+        status%limitations = 0
     end subroutine clear_status
 
     !> Is there no result? A named limitation is no error.

@@ -9,8 +9,8 @@ module faststrip_geometry_arc_spline
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_limits, only: most_halvings
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     count_text, st_out_of_range, st_too_few_points, &
-                                     st_not_increasing, st_not_finite, st_bad_argument
+                                     count_text, st_too_few_points, st_not_increasing, &
+                                     st_not_finite, st_bad_argument
     use faststrip_geometry_touchable, only: upright
     use faststrip_numerics_spline, only: spline_setup, spline_work_size, spline_not_a_knot, &
                                          cubic_value, interval_of, widen_by_cubic
@@ -184,30 +184,24 @@ contains
     end subroutine keep_increasing
 
     !> The depth at y and its first two derivatives.
-    pure subroutine arc_spline_at(curve, y, z, dz, d2z, status)
+    pure subroutine arc_spline_at(curve, y, z, dz, d2z, is_there)
         type(arc_spline_t), intent(in) :: curve !! from `make_arc_spline`
         real(wp), intent(in) :: y               !! lateral coordinate, mm
         real(wp), intent(out) :: z              !! depth, mm
         real(wp), intent(out) :: dz             !! slope dz/dy; at a kink that beyond it
         real(wp), intent(out) :: d2z            !! second derivative, 1/mm
-        type(status_t), intent(out) :: status   !! `st_out_of_range` beyond the first and the last
-                                                !! point and for y not finite: all zero
+        logical, intent(out) :: is_there        !! is y from the first to the last point? If not:
+                                                !! all zero
 
         real(wp) :: t, h, value, y1, y2, z1, z2
         integer :: i
-        logical :: inside
 
-        call clear_status(status)
         z = 0.0_wp
         dz = 0.0_wp
         d2z = 0.0_wp
-        inside = ieee_is_finite(y) .and. allocated(curve%y)
-        if (inside) inside = y >= curve%y(1) .and. y <= curve%y(size(curve%y))
-        if (.not. inside) then
-            call set_status(status, st_out_of_range, 'y = '//trim(number_text(y))// &
-                            ' mm is beyond the points of the profile')
-            return
-        end if
+        is_there = ieee_is_finite(y) .and. allocated(curve%y)
+        if (is_there) is_there = y >= curve%y(1) .and. y <= curve%y(size(curve%y))
+        if (.not. is_there) return
         i = interval_of(curve%y, y)
         h = curve%s(i + 1) - curve%s(i)
         t = place_in(curve, i, h, y)

@@ -11,7 +11,7 @@ module faststrip_geometry_overlap
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height
     use faststrip_geometry_wheel_outline, only: outline_t, lower_outline, see_points, &
-                                                may_be_lower, cell_end
+                                                look_whether_lower, may_be_lower, cell_end
     implicit none
     private
 
@@ -96,11 +96,7 @@ contains
         logical function overlaps(k)
             integer, intent(in) :: k
 
-            overlaps = may_be_lower(outline, k, lowered)
-            if (.not. overlaps) return
-            call see_points(outline, pair, k, k)
-            overlaps = outline%is_there(k)
-            if (overlaps) overlaps = outline%height(k) < lowered
+            call look_whether_lower(outline, pair, k, lowered, overlaps)
         end function overlaps
 
         ! The point between two regions that stands highest over the rail.

@@ -29,7 +29,7 @@ module faststrip_geometry_profile
     private
 
     public :: profile_t, make_wheel_profile, make_rail_profile, make_points_profile, profile_at
-    public :: make_curve_profile, thin_profile, profile_bounds
+    public :: profile_point, make_curve_profile, thin_profile, profile_bounds
     public :: profile_none, profile_s1002, profile_uic60, profile_60e1, profile_points
     public :: profile_curve, profile_54e1, profile_cone
     public :: standard_inclination, unset_inclination
@@ -283,24 +283,43 @@ contains
         type(status_t), intent(out) :: status  !! `st_out_of_range` outside y_first to y_last, for
                                                !! y not finite and for no profile: all zero
 
+        logical :: is_there
+
+        call profile_point(profile, y, z, dz, d2z, is_there)
+        if (.not. is_there) call set_status(status, st_out_of_range, &
+            'y must be on the profile, got ' // trim(number_text(y)) // ' mm')
+    end subroutine profile_at
+
+    !> The same without words, where many points are looked at.
+    pure subroutine profile_point(profile, y, z, dz, d2z, is_there)
+        type(profile_t), intent(in) :: profile !! a profile that was made
+        real(wp), intent(in) :: y              !! lateral coordinate, mm
+        real(wp), intent(out) :: z             !! depth, mm
+        real(wp), intent(out) :: dz            !! slope dz/dy
+        real(wp), intent(out) :: d2z           !! second derivative, 1/mm
+        logical, intent(out) :: is_there       !! is y on the profile? If not: all zero
+
         select case (profile%kind)
         case (profile_s1002)
-            call s1002_at(y, z, dz, d2z, status)
+            call s1002_at(y, z, dz, d2z, is_there)
         case (profile_uic60, profile_60e1, profile_54e1)
-            call rail_head_at(profile%head, y, z, dz, d2z, status)
-        case (profile_cone)
-            call cone_at(profile, y, z, dz, d2z, status)
+            call rail_head_at(profile%head, y, z, dz, d2z, is_there)
         case (profile_points)
-            call sampled_profile_at(profile%sampled, y, z, dz, d2z, status)
+            call sampled_profile_at(profile%sampled, y, z, dz, d2z, is_there)
         case (profile_curve)
-            call arc_spline_at(profile%curve, y, z, dz, d2z, status)
+            call arc_spline_at(profile%curve, y, z, dz, d2z, is_there)
         case default
             z = 0.0_wp
             dz = 0.0_wp
             d2z = 0.0_wp
-            call set_status(status, st_out_of_range, 'there is no profile')
+            is_there = profile%kind == profile_cone .and. ieee_is_finite(y)
+            if (is_there) is_there = y >= profile%y_first .and. y <= profile%y_last
+            if (.not. is_there) return
+            ! A straight tread that rises to the field side.
+            z = -profile%cone*y
+            dz = -profile%cone
         end select
-    end subroutine profile_at
+    end subroutine profile_point
 
     !> Bounds of a profile between two places; of S1002 but for its jumps, 1.2e-4 mm.
     pure function profile_bounds(profile, from, to) result(bounds)
@@ -328,28 +347,4 @@ contains
             bounds = [minval(z), maxval(z)]
         end select
     end function profile_bounds
-
-    !> A straight tread that rises to the field side.
-    pure subroutine cone_at(profile, y, z, dz, d2z, status)
-        type(profile_t), intent(in) :: profile
-        real(wp), intent(in) :: y
-        real(wp), intent(out) :: z, dz, d2z
-        type(status_t), intent(out) :: status
-
-        logical :: inside
-
-        call clear_status(status)
-        z = 0.0_wp
-        dz = 0.0_wp
-        d2z = 0.0_wp
-        inside = ieee_is_finite(y)
-        if (inside) inside = y >= profile%y_first .and. y <= profile%y_last
-        if (inside) then
-            z = -profile%cone*y
-            dz = -profile%cone
-        else
-            call set_status(status, st_out_of_range, 'y must be on the cone, got ' // &
-                            trim(number_text(y)) // ' mm')
-        end if
-    end subroutine cone_at
 end module faststrip_geometry_profile

@@ -9,7 +9,7 @@ module faststrip_geometry_rail_uic60
     use faststrip_base_kinds, only: wp
     use faststrip_base_plausible, only: quantities, of_inclination
     use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
-                                     st_bad_argument, st_out_of_range
+                                     st_bad_argument
     implicit none
     private
 
@@ -212,29 +212,26 @@ contains
     end subroutine turn_head
 
     !> The canted head and its first two derivatives; the origin is its highest point.
-    pure subroutine rail_head_at(head, y, z, dz, d2z, status)
+    pure subroutine rail_head_at(head, y, z, dz, d2z, is_there)
         type(rail_head_t), intent(in) :: head !! from `make_rail_head`
         real(wp), intent(in) :: y             !! lateral coordinate, to the field side, mm
         real(wp), intent(out) :: z            !! depth below the highest point, mm
         real(wp), intent(out) :: dz           !! slope dz/dy
         real(wp), intent(out) :: d2z          !! second derivative, 1/mm
-        type(status_t), intent(out) :: status !! `st_out_of_range` beyond head%joint(1) and
-                                              !! head%joint(8) and for y not finite: all zero
+        logical, intent(out) :: is_there      !! is y from head%joint(1) to head%joint(8)? If not:
+                                              !! all zero
         ! Given: the five arcs' radii.
         integer, parameter :: radius_of(5) = [3, 2, 1, 2, 3]
         integer :: i
         real(wp) :: root
-        logical :: inside
 
-        call clear_status(status)
         z = 0.0_wp
         dz = 0.0_wp
         d2z = 0.0_wp
-        inside = ieee_is_finite(y)
-        if (inside) inside = y >= head%joint(1) .and. y <= head%joint(8)
-        if (.not. inside) then
-            call set_status(status, st_out_of_range, &
-                            'y must be on the rail head, got ' // trim(number_text(y)) // ' mm')
+        is_there = ieee_is_finite(y)
+        if (is_there) is_there = y >= head%joint(1) .and. y <= head%joint(8)
+        if (.not. is_there) then
+            return
         else if (y < head%joint(2)) then
             dz = head%flank_dz(1)
             z = head%flank_z(1) + dz*(y - head%flank_y(1))

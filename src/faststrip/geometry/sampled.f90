@@ -5,8 +5,7 @@ module faststrip_geometry_sampled
     use faststrip_geometry_arc_spline, only: fewest_points
     use faststrip_numerics_spline, only: spline_setup, spline_value, spline_work_size, &
                                          spline_not_a_knot, interval_of, widen_by_cubic
-    use faststrip_base_status, only: status_t, set_status, clear_status, is_error, number_text, &
-                                     count_text, st_out_of_range, st_too_few_points
+    use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_too_few_points
     implicit none
     private
 
@@ -46,29 +45,21 @@ contains
     end subroutine make_sampled_profile
 
     !> The curve and its first two derivatives.
-    pure subroutine sampled_profile_at(profile, y, z, dz, d2z, status)
+    pure subroutine sampled_profile_at(profile, y, z, dz, d2z, is_there)
         type(sampled_profile_t), intent(in) :: profile !! from `make_sampled_profile`
         real(wp), intent(in) :: y                      !! lateral coordinate, mm
         real(wp), intent(out) :: z                     !! depth, mm
         real(wp), intent(out) :: dz                    !! slope dz/dy
         real(wp), intent(out) :: d2z                   !! second derivative, 1/mm
-        type(status_t), intent(out) :: status          !! `st_out_of_range` beyond the first and
-                                                       !! the last point and for y not finite:
-                                                       !! all zero
-        logical :: inside
+        logical, intent(out) :: is_there               !! is y from the first to the last point?
+                                                       !! If not: all zero
 
-        call clear_status(status)
         z = 0.0_wp
         dz = 0.0_wp
         d2z = 0.0_wp
-        inside = ieee_is_finite(y) .and. allocated(profile%slope)
-        if (inside) inside = y >= profile%y(1) .and. y <= profile%y(size(profile%y))
-        if (.not. inside) then
-            call set_status(status, st_out_of_range, 'y = ' // trim(number_text(y)) // &
-                            ' mm is beyond the points of the profile')
-            return
-        end if
-        call spline_value(profile%y, profile%z, profile%slope, y, z, dz, d2z)
+        is_there = ieee_is_finite(y) .and. allocated(profile%slope)
+        if (is_there) is_there = y >= profile%y(1) .and. y <= profile%y(size(profile%y))
+        if (is_there) call spline_value(profile%y, profile%z, profile%slope, y, z, dz, d2z)
     end subroutine sampled_profile_at
 
     !> Bounds of the curve between two places.

@@ -254,13 +254,14 @@ contains
 
         character(len=message_length) :: words
         real(wp) :: h_left, h_right, inv2r, slope, turn
-        integer :: k
+        integer :: k, near
 
         slope = 0.0_wp
+        near = 0
         do k = 1, strips%n
             if (present(is_ellipse) .and. all(k /= [1, (strips%n + 1)/2, strips%n])) cycle
-            call gap_at(curve, strips%y_left(k), h_left, inv2r)
-            call gap_at(curve, strips%y_right(k), h_right, inv2r)
+            call gap_at(curve, strips%y_left(k), h_left, inv2r, near)
+            call gap_at(curve, strips%y_right(k), h_right, inv2r, near)
             slope = max(slope, abs(h_right - h_left)/(strips%y_right(k) - strips%y_left(k)))
             inv2r = gap_inv2r(curve, 0.5_wp*(strips%y_left(k) + strips%y_right(k)))
             slope = max(slope, 2.0_wp*max(inv2r, 0.0_wp)*min(strips%half_length(k), largest_size))

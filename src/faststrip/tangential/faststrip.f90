@@ -224,6 +224,7 @@ contains
         type(tractions_t) :: tractions(most_parts)
         integer :: pass
 
+        coupling%n = 0
         if (rolling%is_corrected) then
             call find_coupling(strips, material, coupling)
             if (coupling%n > 1) then

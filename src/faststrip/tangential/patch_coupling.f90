@@ -61,8 +61,9 @@ module faststrip_tangential_patch_coupling
 
     !> How the parts of a contact act on each other.
     type :: coupling_t
-        integer :: n = 0                 !! parts; one or none: nothing is coupled
-        integer :: patches(most_parts) = 0 !! in each part
+        ! Without a first value, for that of all would be copied.
+        integer :: n                     !! parts; one or none: nothing is coupled
+        integer :: patches(most_parts)   !! in each part
         real(wp), dimension(4, most_parts, most_parts) :: slip_x, slip_y
             !! mean slips of the third by each of the tractions of the second, 1/N
         real(wp), dimension(4, most_parts, most_parts) :: tilt_x, tilt_y !! tilts of both, 1/N
@@ -89,12 +90,19 @@ contains
         type(material_t), intent(in) :: material     !! moduli in MPa
         type(coupling_t), intent(inout) :: coupling  !! of its patches
 
+        coupling%n = 0
+        if (strips%patch(1) /= strips%patch(strips%n)) call couple_parts(strips, material, coupling)
+    end subroutine find_coupling
+
+    pure subroutine couple_parts(strips, material, coupling)
+        type(contact_strips_t), intent(in) :: strips
+        type(material_t), intent(in) :: material
+        type(coupling_t), intent(inout) :: coupling
+
         type(part_t) :: parts(most_parts)
         real(wp) :: g, nu
         integer :: patches, last, first, k, j
 
-        coupling%n = 0
-        if (strips%patch(1) == strips%patch(strips%n)) return
         patches = 0
         last = 0
         do while (last < strips%n)
@@ -124,7 +132,7 @@ contains
                                         coupling%tilt_y(:, j, k))
             end do
         end do
-    end subroutine find_coupling
+    end subroutine couple_parts
 
     !> In which of so many groups the i-th of some is; with an odd number of groups the same from
     !> both ends.

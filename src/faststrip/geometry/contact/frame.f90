@@ -15,7 +15,7 @@ module faststrip_geometry_contact_frame
     use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, set_status, clear_status, st_no_contact
     use faststrip_geometry_overlap, only: region_t
-    use faststrip_geometry_profile, only: profile_at
+    use faststrip_geometry_profile, only: profile_point
     use faststrip_geometry_touchable, only: upright
     use faststrip_geometry_undeformed_gap, only: smallest_step
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_height, &
@@ -368,8 +368,8 @@ contains
         logical, intent(out) :: found
 
         real(wp) :: way, advance
-        type(status_t) :: inside
         integer :: i
+        logical :: is_there
 
         found = .false.
         if (.not. place%is_new) then
@@ -382,7 +382,7 @@ contains
         place%across = across
         do i = 1, most_steps
             place%y = min(max(place%y, pair%rail%y_first), pair%rail%y_last)
-            call profile_at(pair%rail, place%y, place%z, place%slope, place%bend, inside)
+            call profile_point(pair%rail, place%y, place%z, place%slope, place%bend, is_there)
             advance = c + place%slope*s
             if (advance < least_along) return
             way = (across - place%y*c - place%z*s)/advance

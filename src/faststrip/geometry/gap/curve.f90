@@ -449,11 +449,13 @@ contains
     !> A term below 3 % of the gap's geometric mean is raised to that: strips would become more
     !> than six times as long as usual, and endless where it is not positive. `gap_inv2r` tells it
     !> as it was given.
-    pure subroutine gap_at(curve, y, h, inv2r)
+    pure subroutine gap_at(curve, y, h, inv2r, near)
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: y              !! lateral position, mm
         real(wp), intent(out) :: h             !! height, mm
         real(wp), intent(out) :: inv2r         !! A = 1/(2R), 1/mm
+        integer, intent(inout), optional :: near
+            !! of places from left to right: interval of the last one, 0: none; that of this one
 
         integer :: i
         real(wp) :: t
@@ -465,7 +467,13 @@ contains
             h = curve%h(curve%n)
             inv2r = curve%inv2r(curve%n)
         else
-            i = interval_of(curve, y)
+            if (present(near)) then
+                i = near
+                call go_on_to(curve, y, i)
+                near = i
+            else
+                i = interval_of(curve, y)
+            end if
             t = (y - curve%y(i))/(curve%y(i + 1) - curve%y(i))
             h = height(curve, i, t)
             inv2r = curve%inv2r(i) + t*(curve%inv2r(i + 1) - curve%inv2r(i))
@@ -759,6 +767,21 @@ contains
             end if
         end do
     end function interval_of
+
+    !> The same from the interval of a place before it, 0: none.
+    pure subroutine go_on_to(curve, y, i)
+        type(gap_curve_t), intent(in) :: curve
+        real(wp), intent(in) :: y ! inside the data
+        integer, intent(inout) :: i
+
+        if (i > 0) then
+            if (y < curve%y(i)) i = 0
+        end if
+        if (i == 0) i = interval_of(curve, y)
+        do while (y >= curve%y(i + 1))
+            i = i + 1
+        end do
+    end subroutine go_on_to
 
     !> Height in interval i at the local coordinate t of 0 to 1.
     pure real(wp) function height(curve, i, t) result(h)

@@ -28,7 +28,7 @@ module faststrip_geometry_wheel_outline
     private
 
     public :: outline_t, reserve_outline, move_outline, lower_outline, see_points, see_point
-    public :: may_be_lower, lowest_height, cell_of, cell_end
+    public :: may_be_lower, look_whether_lower, lowest_height, cell_of, cell_end
 
     ! Tuned [points]: in a cell. Origin: measured: with half as many a step of a wheelset costs 2 %
     ! more, with twice as many it costs the same.
@@ -213,6 +213,24 @@ contains
         may_be_lower = outline%is_seen(cell_of(point)) .or. outline%low(cell_of(point)) < height
     end function may_be_lower
 
+    !> Is a point of the outline lower over the rail than this? Its cell is looked at if it may be.
+    pure subroutine look_whether_lower(outline, pair, point, height, is_lower)
+        type(outline_t), intent(inout) :: outline !! at a state
+        type(wheel_on_rail_t), intent(in) :: pair !! made
+        integer, intent(in) :: point              !! number of a point
+        real(wp), intent(in) :: height            !! mm
+        logical, intent(out) :: is_lower          !! is it, and over the rail?
+
+        integer :: cell
+
+        cell = (point - 1)/cell_points + 1
+        is_lower = outline%is_seen(cell) .or. outline%low(cell) < height
+        if (.not. is_lower) return
+        if (.not. outline%is_seen(cell)) call see_cell(outline, pair, cell)
+        is_lower = outline%is_there(point)
+        if (is_lower) is_lower = outline%height(point) < height
+    end subroutine look_whether_lower
+
     !> Look at points, with all of their cells.
     pure subroutine see_points(outline, pair, first, last)
         type(outline_t), intent(inout) :: outline !! at a state
@@ -236,20 +254,25 @@ contains
         real(wp), intent(out) :: slope            !! dz/dy of the outline there
         logical, intent(out) :: is_there          !! has the wheel an outline there?
 
-        type(wheelset_axes_t) :: axes
+        call outline_point(pair, outline%state%rail(1), lowered_axes(outline), pair%y(i), &
+                           pair%z(i), pair%slope(i), point, slope, is_there)
+        point(3) = point(3) - outline%lowered
+    end subroutine see_point
+
+    ! The axes of the state, over a roller with the height of the wheel.
+    pure type(wheelset_axes_t) function lowered_axes(outline) result(axes)
+        type(outline_t), intent(in) :: outline
 
         axes = outline%axes
         axes%centre(3) = axes%centre(3) + outline%lowered
-        call outline_point(pair, outline%state%rail(1), axes, pair%y(i), pair%z(i), pair%slope(i), &
-                           point, slope, is_there)
-        point(3) = point(3) - outline%lowered
-    end subroutine see_point
+    end function lowered_axes
 
     pure subroutine see_cell(outline, pair, cell)
         type(outline_t), intent(inout) :: outline
         type(wheel_on_rail_t), intent(in) :: pair
         integer, intent(in) :: cell
 
+        type(wheelset_axes_t) :: axes
         real(wp) :: point(3), z, low, way, left, right, span(2)
         logical :: has_outline
         integer :: i
@@ -259,11 +282,13 @@ contains
         left = huge(1.0_wp)
         right = -huge(1.0_wp)
         span = rail_span(pair, outline%state%rail(1))
+        axes = lowered_axes(outline)
         do i = (cell - 1)*cell_points + 1, min(cell*cell_points, size(outline%x))
-            call see_point(outline, pair, i, point, outline%slope(i), has_outline)
+            call outline_point(pair, outline%state%rail(1), axes, pair%y(i), pair%z(i), &
+                               pair%slope(i), point, outline%slope(i), has_outline)
             outline%x(i) = point(1)
             outline%y(i) = point(2)
-            outline%z(i) = point(3)
+            outline%z(i) = point(3) - outline%lowered
             outline%is_there(i) = has_outline
             if (.not. has_outline) then
                 way = 0.0_wp
@@ -274,7 +299,7 @@ contains
             call rail_height(pair, outline%state%rail(1), point(2), z, outline%below(i), &
                              outline%is_there(i))
             if (outline%is_there(i)) then
-                outline%height(i) = z - point(3)
+                outline%height(i) = z - outline%z(i)
                 low = min(low, outline%height(i))
             else
                 ! Beyond an end of the rail.

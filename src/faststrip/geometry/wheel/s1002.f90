@@ -8,8 +8,6 @@
 module faststrip_geometry_wheel_s1002
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
-    use faststrip_base_status, only: status_t, set_status, clear_status, number_text, &
-                                     st_out_of_range
     implicit none
     private
 
@@ -42,24 +40,20 @@ module faststrip_geometry_wheel_s1002
 contains
 
     !> The profile and its first two derivatives.
-    pure subroutine s1002_at(s, f, df, d2f, status)
-        real(wp), intent(in) :: s             !! lateral coordinate, mm
-        real(wp), intent(out) :: f            !! profile, down, mm
-        real(wp), intent(out) :: df           !! slope df/ds
-        real(wp), intent(out) :: d2f          !! second derivative, 1/mm
-        type(status_t), intent(out) :: status !! `st_out_of_range` outside s1002_first to
-                                              !! s1002_last and for s not finite: all zero
-        logical :: inside
+    pure subroutine s1002_at(s, f, df, d2f, is_there)
+        real(wp), intent(in) :: s        !! lateral coordinate, mm
+        real(wp), intent(out) :: f       !! profile, down, mm
+        real(wp), intent(out) :: df      !! slope df/ds
+        real(wp), intent(out) :: d2f     !! second derivative, 1/mm
+        logical, intent(out) :: is_there !! is s from s1002_first to s1002_last? If not: all zero
 
-        call clear_status(status)
         f = 0.0_wp
         df = 0.0_wp
         d2f = 0.0_wp
-        inside = ieee_is_finite(s)
-        if (inside) inside = s >= s1002_first .and. s <= s1002_last
-        if (.not. inside) then
-            call set_status(status, st_out_of_range, &
-                            's must be on the S1002 profile, got ' // trim(number_text(s)) // ' mm')
+        is_there = ieee_is_finite(s)
+        if (is_there) is_there = s >= s1002_first .and. s <= s1002_last
+        if (.not. is_there) then
+            return
         else if (s >= s1002_joints(1)) then
             f = 1.364323640_wp - 0.066666667_wp*s
             df = -0.066666667_wp

@@ -183,9 +183,10 @@ contains
         type(patches_t), intent(in) :: patches
 
         real(wp) :: middle, half, h, a
-        integer :: p, k, i
+        integer :: p, k, i, near
 
         call grade_edges(workspace, patches)
+        near = 0
         associate (strips => workspace%strips)
             i = 0
             do p = 1, patches%n
@@ -201,7 +202,7 @@ contains
                     strips%y_right(i) = middle + half*workspace%edge(i)
                     if (k == patches%at(p)%n_strips) strips%y_right(i) = patches%at(p)%y_to
                     call gap_at(workspace%curve, 0.5_wp*(strips%y_left(i) + strips%y_right(i)), &
-                                h, a)
+                                h, a, near)
                     strips%height(i) = h - workspace%curve%h_lowest
                     strips%inv2r(i) = max(a, flattest)
                 end do
