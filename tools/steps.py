@@ -96,7 +96,9 @@ FPM = ".venv/bin/fpm"
 PROGRAMS = ("faststrip", "faststrip-lab")
 
 COMMON = "-frecursive -fimplicit-none -std=f2018"
-RELEASE_FLAGS = f"-O3 -fopenmp-simd -fPIC -fno-semantic-interposition {COMMON} {os.environ.get('FASTSTRIP_FFLAGS', '')}"
+# Nobody replaces the library's procedures by others of their names: so they may be inlined.
+SHARED = "-fPIC -fno-semantic-interposition"
+RELEASE_FLAGS = f"-O3 -fopenmp-simd {SHARED} {COMMON} {os.environ.get('FASTSTRIP_FFLAGS', '')}"
 # Of the programs: rows of a batch are solved by threads. The library that is installed has no
 # such directives, so that these flags change nothing of it, and it need not be compiled again.
 PROGRAM_FLAGS = f"{RELEASE_FLAGS} -fopenmp"
