@@ -8,7 +8,7 @@ module faststrip_wheelset_loads
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, is_near, usual_approach, equilibrium, &
-                                           near_enough, roll_search_t, next_roll
+                                           near_load, hertz_power, roll_search_t, next_roll
     use faststrip_wheelset_height, only: set_outline, try_height, as_right, wheel_sums_t, &
                                          sums_of, hand_over
     use faststrip_wheelset_lookup, only: look_up_at_load
@@ -105,7 +105,7 @@ contains
         do
             if (is_warm) then
                 call start_search(search, load, workspace%wheel(side)%approach, &
-                                  max(demand%tolerance, near_enough), demand%bracket, &
+                                  max(demand%tolerance, near_load), demand%bracket, &
                                   workspace%wheel(side)%slope)
             else
                 workspace%wheel(side)%n = 0
@@ -131,6 +131,9 @@ contains
         if (search%approach /= search%best) &
             call try_height(model, workspace, state, side, touch + search%best, wheel, &
                             by_strips=.true.)
+        ! What is left of the load is left of the height, too.
+        if (search%misfit > 0.0_wp .and. search%slope > 0.0_wp) search%best = search%best &
+            + (1.0_wp - (wheel%force(3)/load)**(1.0_wp/hertz_power))/search%slope
         workspace%wheel(side)%approach = search%best
         workspace%wheel(side)%slope = search%slope
         wheel%z = touch + search%best
