@@ -18,9 +18,9 @@ module faststrip_geometry_wheelset_state
     private
 
     public :: wheelset_state_t, wheelset_axes_t, rail_state_t, on_roller_t, pure_rolling
-    public :: mirrored_state, reversed_state, rolling_state, resting_state, is_at_rest, &
-              check_state, wheelset_axes, rigid_creepage, approach_rate, rail_velocity, cross, &
-              is_same_state
+    public :: mirrored_state, reversed_state, rolls_back, rolling_state, resting_state, &
+              is_at_rest, check_state, wheelset_axes, rigid_creepage, approach_rate, &
+              rail_velocity, cross, is_same_state
 
     ! Roll, yaw and contact angles beyond are refused, rad: lines of a wheel that is turned farther
     ! have no meaning.
@@ -128,6 +128,16 @@ contains
         reversed%pitch_rate = -state%pitch_rate
         reversed%pitch_rate_difference = -state%pitch_rate_difference
     end function reversed_state
+
+    !> Does a right wheel roll backwards, by the mean of its speed and that of its surface?
+    pure logical function rolls_back(state, lever, radius)
+        type(wheelset_state_t), intent(in) :: state !! mm, rad, s; its pitch rate is said
+        real(wp), intent(in) :: lever               !! of the wheel about the middle, mm
+        real(wp), intent(in) :: radius              !! nominal one of the wheel, mm
+
+        rolls_back = state%speed - (state%yaw_rate + state%speed*state%curvature)*lever &
+                     < (state%pitch_rate - 0.5_wp*state%pitch_rate_difference)*radius
+    end function rolls_back
 
     !> The state with the pitch rate of pure rolling where none was said.
     elemental type(wheelset_state_t) function rolling_state(state, radius) result(rolling)

@@ -427,6 +427,6 @@ contains
         type(wheelset_handle_t), intent(in) :: handle !! solved
         integer, intent(in) :: side                   !! `side_right`, `side_left`
 
-        contact_mirror = mirror_t(y=side == side_left, x=handle%workspace%is_reversed)
+        contact_mirror = mirror_t(y=side == side_left, x=handle%workspace%is_reversed(side))
     end function contact_mirror
 end module faststrip_interop_wheelset_handle

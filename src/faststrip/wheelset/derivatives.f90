@@ -15,7 +15,7 @@ module faststrip_wheelset_derivatives
                                      st_bad_argument, st_no_convergence
     use faststrip_contact_derivatives, only: check_differentiable, creepage_step, &
                                              difference_step, finest
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, reversed_state, is_at_rest
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, is_at_rest
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_wheelset_approach, only: find_spring_step
     use faststrip_wheelset_height, only: set_outline, try_height, try_table, as_right
@@ -122,7 +122,7 @@ contains
 
         state = workspace%last_state
         state%z = wheel%z
-        call try_table(model, neighbour(here), side, state%z, near, share)
+        call try_table(model, workspace, neighbour(here), side, state%z, near, share)
         smallest = minval(wheel%contact(:wheel%n)%figures%normal%penetration)
         step(1:2) = difference_step(smallest)
         step(3) = step(1)/model%pair(side)%y_line
@@ -132,7 +132,7 @@ contains
         step(9) = step(5)/model%radius
         ! To the side that is the same of a wheel in a mirror.
         if (side == side_left) step = step*mirrored
-        if (workspace%is_reversed) step = step*reversed
+        if (workspace%is_reversed(side)) step = step*reversed
         do j = 1, n_coordinates
             i = order(j)
             call solve(i, .false., forces(:, i))
@@ -173,14 +173,13 @@ contains
 
             neighbour = state
             if (i /= here) call move(neighbour, i, step(i))
-            if (workspace%is_reversed) neighbour = reversed_state(neighbour)
         end function neighbour
 
         ! A wheel between what was solved and what it is.
         subroutine turn_back(there)
             type(wheel_result_t), intent(inout) :: there
 
-            if (workspace%is_reversed) call reverse_wheel(there)
+            if (workspace%is_reversed(side)) call reverse_wheel(there)
             if (side == side_left) call mirror_wheel(there)
         end subroutine turn_back
 
@@ -195,7 +194,7 @@ contains
 
             there = neighbour(i)
             if (share >= 1.0_wp) then
-                call try_table(model, there, side, there%z, near, share_there)
+                call try_table(model, workspace, there, side, there%z, near, share_there)
                 if (share_there < 1.0_wp) &
                     call set_status(status, st_no_convergence, &
                                     'strips take over from the table at this state')
@@ -218,7 +217,7 @@ contains
                 return
             end if
             call move_wheel(model, model%pair(side), workspace%wheel(side), &
-                            as_right(neighbour(i), side), state%z, near)
+                            as_right(workspace, neighbour(i), side), state%z, near)
             call turn_back(near)
             found = [near%force, near%moment]
             call turn_back(near)

@@ -52,7 +52,7 @@ contains
             field%state(:n) = from%state(:n)
             field%temperature(:n) = from%temperature(:n)
             field%has_temperature = from%has_temperature
-            call mirror_elements([workspace%is_reversed, side == side_left], field%x(:n), &
+            call mirror_elements([workspace%is_reversed(side), side == side_left], field%x(:n), &
                                  field%y(:n), field%area(:n), field%pn(:n), field%px(:n), &
                                  field%py(:n), field%sx(:n), field%sy(:n), field%state(:n), &
                                  field%dx(:n))

@@ -4,7 +4,7 @@ module faststrip_wheelset_height
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, number_text, st_no_contact
     use faststrip_geometry_wheel_outline, only: move_outline, lowest_height
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, mirrored_state
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, mirrored_state, reversed_state
     use faststrip_wheelset_lookup, only: look_up_at_height
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, wheel_result_t, &
                                         side_right, side_left
@@ -34,7 +34,7 @@ contains
         type(status_t), intent(inout) :: status                !! `st_no_contact`
 
         associate (outline => workspace%wheel(side)%outline)
-            call move_outline(outline, as_right(state, side), model%radius)
+            call move_outline(outline, as_right(workspace, state, side), model%radius)
             call lowest_height(outline, model%pair(side), touch)
         end associate
         if (touch >= huge(touch)) &
@@ -42,18 +42,21 @@ contains
                             trim(number_text(state%y)) // ' mm of the wheelset')
     end subroutine set_outline
 
-    !> The state as a right wheel has it.
-    pure type(wheelset_state_t) function as_right(state, side)
-        type(wheelset_state_t), intent(in) :: state !! mm, rad, s
-        integer, intent(in) :: side                 !! `side_right` or `side_left`
+    !> The state as a right wheel has it that rolls ahead.
+    pure type(wheelset_state_t) function as_right(workspace, state, side)
+        type(wheelset_workspace_t), intent(in) :: workspace !! knows which wheel rolls backwards
+        type(wheelset_state_t), intent(in) :: state         !! mm, rad, s
+        integer, intent(in) :: side                         !! `side_right` or `side_left`
 
         as_right = state
-        if (side == side_left) as_right = mirrored_state(state)
+        if (side == side_left) as_right = mirrored_state(as_right)
+        if (workspace%is_reversed(side)) as_right = reversed_state(as_right)
     end function as_right
 
     !> One wheel at a height by its table.
-    subroutine try_table(model, state, side, z, wheel, share)
+    subroutine try_table(model, workspace, state, side, z, wheel, share)
         type(wheelset_model_t), intent(in) :: model  !! made
+        type(wheelset_workspace_t), intent(in) :: workspace !! of the wheelset
         type(wheelset_state_t), intent(in) :: state  !! its z does not count, mm, rad
         integer, intent(in) :: side                  !! `side_right` or `side_left`
         real(wp), intent(in) :: z                    !! of the wheelset's centre, mm
@@ -62,7 +65,8 @@ contains
 
         share = 0.0_wp
         if (associated(model%lookup)) &
-            call look_up_at_height(model, model%pair(side), as_right(state, side), z, wheel, share)
+            call look_up_at_height(model, model%pair(side), as_right(workspace, state, side), z, &
+                                   wheel, share)
     end subroutine try_table
 
     !> One wheel at a height, by its table where that reaches, without estimates.
@@ -80,7 +84,7 @@ contains
         real(wp) :: share
 
         share = 0.0_wp
-        if (.not. present(by_strips)) call try_table(model, state, side, z, wheel, share)
+        if (.not. present(by_strips)) call try_table(model, workspace, state, side, z, wheel, share)
         if (share >= 1.0_wp .and. .not. present(neighbour)) then
             ! What strips left behind is of another state.
             workspace%wheel(side)%n = 0
@@ -88,7 +92,7 @@ contains
         end if
         if (share > 0.0_wp) sums = sums_of(wheel)
         call solve_wheel_at(model, model%pair(side), workspace%wheel(side), &
-                            as_right(state, side), z, wheel, neighbour)
+                            as_right(workspace, state, side), z, wheel, neighbour)
         wheel%z = z
         if (share > 0.0_wp) call hand_over(sums, share, wheel)
     end subroutine try_height

@@ -86,7 +86,8 @@ contains
         share = 0.0_wp
         load = demand%load(side)
         if (associated(model%lookup) .and. load > 0.0_wp) then
-            call look_up_at_load(model, model%pair(side), as_right(state, side), load, wheel, share)
+            call look_up_at_load(model, model%pair(side), as_right(workspace, state, side), load, &
+                                 wheel, share)
             if (share >= 1.0_wp) then
                 call forget_strips(workspace%wheel(side))
                 return

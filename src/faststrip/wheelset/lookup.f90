@@ -43,9 +43,9 @@ module faststrip_wheelset_lookup
     ! Tuned [cells]: of an end, over which the table does. Origin: chosen: what it misses, 1 % of a
     ! load, moves forces by less than a lateral displacement does.
     real(wp), parameter :: end_way = 0.25_wp
-    ! Tuned [rad]: yaw beyond a table's ends that counts as that of the end. Origin: chosen: above
-    ! the steps of derivatives, and places move with it by less than 0.1 um.
-    real(wp), parameter :: yaw_beside = 1.0e-7_wp
+    ! Tuned [rad]: how far beside the one yaw of a table it answers alone, and from where on strips
+    ! do. Origin: chosen: above the steps of derivatives; places move by 2 um on a flange.
+    real(wp), parameter :: yaw_alone = 1.0e-7_wp, yaw_beside = 1.0e-4_wp
     ! Tuned [1]: how far within a table's ends of load a search stays. Origin: chosen: the table's
     ! share is next to nothing there.
     real(wp), parameter :: within_ends = 1.0e-6_wp
@@ -133,7 +133,7 @@ contains
         real(wp), intent(out) :: share
 
         type(status_t) :: status
-        real(wp) :: centre(2), design(2), lies(2), arm(2), moved(2), tilt, yaw
+        real(wp) :: centre(2), design(2), lies(2), arm(2), moved(2), tilt, yaw, share_of_yaw
         integer :: pass, passes, main
         logical :: is_there
 
@@ -144,10 +144,14 @@ contains
             passes = 1
             if (max(abs(tilt), abs(rail%roll)) > 0.0_wp) passes = roll_passes
             yaw = state%yaw
-            associate (ends => model%lookup%wheel%yaw)
-                yaw = min(max(yaw, ends%x(1)), ends%x(ends%n))
+            share_of_yaw = 1.0_wp
+            associate (axis => model%lookup%wheel%yaw)
+                if (axis%n == 1) then
+                    share_of_yaw = (yaw_beside - abs(yaw - axis%x(1)))/(yaw_beside - yaw_alone)
+                    if (.not. share_of_yaw > 0.0_wp) return
+                    yaw = axis%x(1)
+                end if
             end associate
-            if (abs(yaw - state%yaw) > yaw_beside) yaw = state%yaw
             lies = rail_origin(pair, rail)
             design = rail_origin(pair, rail_state_t())
             arm = [pair%y_line, pair%radius]
@@ -173,7 +177,7 @@ contains
                 z = centre(2) + model%radius
             end do
             associate (wheel => model%lookup%wheel)
-                share = min(1.0_wp, (largest_tilt - abs(tilt))/tilt_way, &
+                share = min(1.0_wp, share_of_yaw, (largest_tilt - abs(tilt))/tilt_way, &
                             share_along(wheel%y, place(1)), share_along(wheel%yaw, place(2)), &
                             share_along(wheel%load, place(3)))
             end associate

@@ -55,7 +55,7 @@ contains
             call copy_strips(contact%strips, found%strips)
             call copy_strip_forces(contact%strip_forces, found%forces)
         end associate
-        if (workspace%is_reversed) found%forces%fx = -found%forces%fx
+        if (workspace%is_reversed(side)) found%forces%fx = -found%forces%fx
         call find_places(model, model%pair(side), workspace%wheel(side), i, &
                          result%wheel(side)%z, found, status)
         if (side == side_left) call mirror(found)

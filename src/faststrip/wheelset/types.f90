@@ -183,7 +183,7 @@ module faststrip_wheelset_types
         type(wheel_workspace_t) :: wheel(2)   !! right, left
         type(wheelset_state_t) :: last_state  !! of the last solution, with its z and roll
         logical :: has_last = .false.         !! was there one?
-        logical :: is_reversed = .false.      !! did it roll backwards?
+        logical :: is_reversed(2) = .false.   !! does each wheel roll backwards?
         type(path_t) :: path                  !! of the last solutions
         real(wp) :: stiffness(2, 2) = 0.0_wp
             !! of load and roll moment over z and roll at the last balance; 0: not known, N/mm, N,

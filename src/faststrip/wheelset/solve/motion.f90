@@ -9,14 +9,14 @@ module faststrip_wheelset_solve_motion
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      join_limitations, number_text, st_bad_argument, &
                                      st_target_missed
-    use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state, reversed_state, &
+    use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state, rolls_back, &
                                                  rolling_state, resting_state
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, is_found, &
                                            usual_approach, most_tries
     use faststrip_wheelset_balance, only: solve_for_balance
     use faststrip_wheelset_guide, only: needs_guide
-    use faststrip_wheelset_height, only: set_outline, try_height, try_table
+    use faststrip_wheelset_height, only: set_outline, try_height, try_table, as_right
     use faststrip_wheelset_loads, only: start_afresh, solve_loads, solve_for_roll, name_jump
     use faststrip_wheelset_model, only: check_workspace, check_on_rollers, check_damping
     use faststrip_wheelset_predict, only: predict_heights, remember_heights
@@ -79,17 +79,18 @@ contains
             prescribed%roll_is_free = .true.
         end if
         result%pitch_rate = moving%pitch_rate
-        workspace%is_reversed = moving%speed < moving%pitch_rate*model%radius
+        workspace%is_reversed = .false.
+        do side = side_right, side_left
+            workspace%is_reversed(side) = rolls_back(as_right(workspace, moving, side), &
+                                                     model%pair(side)%y_line, &
+                                                     model%pair(side)%radius)
+        end do
         call predict_heights(model, workspace, moving, prescribed)
-        if (workspace%is_reversed) then
-            call solve_checked(model, workspace, reversed_state(moving), prescribed, result, status)
-            do side = side_right, side_left
-                if (demand%wants(side)) call reverse_wheel(result%wheel(side))
-            end do
-            workspace%last_state = reversed_state(workspace%last_state)
-        else
-            call solve_checked(model, workspace, moving, prescribed, result, status)
-        end if
+        call solve_checked(model, workspace, moving, prescribed, result, status)
+        do side = side_right, side_left
+            if (workspace%is_reversed(side) .and. demand%wants(side)) &
+                call reverse_wheel(result%wheel(side))
+        end do
         if (workspace%has_last) call remember_heights(model, workspace, moving, prescribed)
         call restore_environment(environment)
     end subroutine solve_motion
@@ -255,7 +256,7 @@ contains
 
         do side = side_right, side_left
             if (.not. demand%wants(side)) cycle
-            call try_table(model, state, side, state%z, result%wheel(side), share)
+            call try_table(model, workspace, state, side, state%z, result%wheel(side), share)
             if (share >= 1.0_wp) then
                 workspace%wheel(side)%n = 0
                 cycle
