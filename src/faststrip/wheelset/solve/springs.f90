@@ -33,8 +33,9 @@ module faststrip_wheelset_solve_springs
 contains
 
     !> Rails without mass on springs: each is displaced by u beside where the state has it, with
-    !> K u = F, F the force of its wheel. Steps of Newton's method for both, from the stiffness of
-    !> Hertz' law along the normal of each contact, corrected by what steps find (Broyden).
+    !> K u = F, F the force of its wheel. What the last solution leads nowhere with is solved afresh;
+    !> where rails that are not yet displaced carry no axle load, they begin where half of it on each
+    !> puts them.
     subroutine solve_on_springs(model, workspace, state, demand, result, status)
         type(wheelset_model_t), intent(in) :: model            !! made
         type(wheelset_workspace_t), intent(inout) :: workspace !! reserved for it
@@ -42,6 +43,54 @@ contains
         type(wheelset_demand_t), intent(in) :: demand          !! what is prescribed
         type(wheelset_result_t), intent(inout) :: result       !! of the wheels asked for
         type(status_t), intent(out) :: status                  !! those of `solve_wheelset`
+
+        type(wheelset_demand_t) :: halves
+        type(status_t) :: other
+        integer :: solutions(2)
+        logical :: was_warm
+
+        was_warm = workspace%has_last
+        call find_deflection(model, workspace, state, demand, result, status)
+        if (.not. is_lost(status)) return
+        solutions = result%wheel%solutions
+        if (was_warm) then
+            workspace%has_last = .false.
+            call find_deflection(model, workspace, state, demand, result, status)
+            solutions = solutions + result%wheel%solutions
+        end if
+        if (is_lost(status) .and. (demand%kind == demand_rest .or. demand%roll_is_free) &
+            .and. demand%kind /= demand_loads) then
+            halves = demand
+            halves%kind = demand_loads
+            halves%roll_is_free = .true.
+            halves%load = 0.5_wp*demand%axle_load
+            workspace%has_last = .false.
+            call find_deflection(model, workspace, state, halves, result, other)
+            solutions = solutions + result%wheel%solutions
+            if (.not. is_error(other)) then
+                call find_deflection(model, workspace, state, demand, result, status)
+                solutions = solutions + result%wheel%solutions
+            end if
+        end if
+        result%wheel%solutions = solutions
+    end subroutine solve_on_springs
+
+    ! Might another start have led to a solution?
+    pure logical function is_lost(status)
+        type(status_t), intent(in) :: status
+
+        is_lost = any(status%code == [st_no_contact, st_no_convergence])
+    end function is_lost
+
+    ! Steps of Newton's method for both rails, from the stiffness of Hertz' law along the normal of
+    ! each contact, corrected by what steps find (Broyden).
+    subroutine find_deflection(model, workspace, state, demand, result, status)
+        type(wheelset_model_t), intent(in) :: model
+        type(wheelset_workspace_t), intent(inout) :: workspace
+        type(wheelset_state_t), intent(in) :: state
+        type(wheelset_demand_t), intent(in) :: demand
+        type(wheelset_result_t), intent(inout) :: result
+        type(status_t), intent(out) :: status
 
         type(wheelset_state_t) :: moved
         real(wp), dimension(n_directions) :: stiffness, u, best, force, left, before, missed, step
@@ -106,7 +155,7 @@ contains
         if (.not. (is_first .and. is_error(status))) &
             call set_status(status, st_no_convergence, &
                             'no balance of rails and their springs was found')
-    end subroutine solve_on_springs
+    end subroutine find_deflection
 
     ! How forces fall with the displacements of the rails. Where loads are given wheels follow the
     ! rails down: each by itself, or both together.
