@@ -455,7 +455,9 @@ contains
                 result%fx = result%fx + cell*px
                 result%fy = result%fy + cell*py
                 result%mz = result%mz + cell*(x*py - (y0 + y)*px)
-                result%friction_power = result%friction_power - cell*(px*sx + py*sy)
+                ! What motion feeds in: friction and what is still stored where the row ends.
+                result%friction_power = result%friction_power &
+                                        - cell*(px*l1*slope_x + py*l2*slope_y)
                 if (present(field)) call add_element(field, x, y0 + y, [h, cell], &
                                                      pmax*sqrt(place), px, py, sx, sy, state)
             end do

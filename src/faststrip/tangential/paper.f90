@@ -342,7 +342,8 @@ contains
             total%covered = total%covered + cell*total%a*total%b
             total%tx = total%tx + px*cell*stress                             ! (44), (45)
             total%ty = total%ty + py*cell*stress
-            total%power = total%power - (px*slip_x + py*slip_y)*cell*stress
+            ! What motion feeds in, as in FASTSIM.
+            total%power = total%power - (px*sx/patch%c1 + py*sy/patch%c2)/factor*cell*stress
             lever = px*ye - py*xe
             if (.not. reading%bare_moment) lever = py*xe*total%a - px*ye*total%b
             total%mz = total%mz + lever*cell*stress
