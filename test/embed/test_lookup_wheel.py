@@ -426,6 +426,8 @@ class WheelFaces(HostTest):
             walks.append([{"y": 0.4, "load": 8e4, "roll": roll} for roll in rolls])
             first = height(y=0.4, load=8e4)
             walks.append([{"y": 0.4, "z": first - 750.0 * roll, "roll": roll} for roll in rolls])
+            # The table has one yaw.
+            walks.append([{"y": 0.4, "load": 8e4, "yaw": way * (1e-4 + k / 150.0)} for k in steps])
         jumps = 0
         for walk in walks:
             # What the table adds, step by step.

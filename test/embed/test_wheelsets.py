@@ -172,6 +172,30 @@ class Interfaces(HostTest):
         left = wheelset.solve(pitch_rate=-43.0, pitch_rate_difference=-0.5, **{**state, "y": -2.0})
         self.assertEqual((left.force[::-1] * (1, -1, 1)).tolist(), apart.force.tolist())
 
+    def test_wheels_that_roll_in_opposite_directions(self):
+        package = self.import_package()
+        for methods in {}, {"normal": "hertz", "tangential": "polach"}:
+            wheelset = package.Wheelset(estimate=False, mu=0.5, **methods)
+
+            # Turning about the middle, almost rolling: the right wheel back, the left one ahead.
+            def turn(speed, rate=0.01, slip=2e-3, at=wheelset):
+                return at.solve(y=1.0, z=0.3, roll=0.0, speed=speed, yaw_rate=rate,
+                                pitch_rate=-speed / 460.0,
+                                pitch_rate_difference=-2 * rate * 750.0 / 460.0 * (1 + slip))
+
+            rest = turn(0.0)
+            largest = abs(rest.force[:, :2]).max()
+            self.assertGreater(largest, 2e4)
+            for speed in (-1e-3, 1e-3):
+                near = turn(speed)
+                self.assertLess(abs(near.force - rest.force).max(), 1e-3 * largest)
+            # Looked at from the other end.
+            back = turn(0.0, rate=-0.01)
+            np.testing.assert_allclose(back.force * (-1, 1, 1), rest.force, atol=1e-6 * largest)
+        locked = [wheelset.solve(y=1.0, z=0.3, roll=0.0, yaw_rate=rate, pitch_rate=0.0).force
+                  for rate in (0.01, -0.01)]
+        np.testing.assert_allclose(locked[0] * (-1, 1, 1), locked[1], rtol=1e-9)
+
     def test_damping_grows_with_the_approach_and_never_pulls(self):
         package = self.import_package()
         damped, plain = package.Wheelset(damping=2e-3), package.Wheelset()
@@ -373,6 +397,14 @@ class Interfaces(HostTest):
                     mirrored["load"] = state["load"][::-1]
                 other = wheelset.solve(**mirrored).force[::-1] * [1.0, -1.0, 1.0]
                 self.assertLessEqual(abs(other - found.force).max(), near)
+        # Where rails that do not give way would lift a wheel; afresh as at the end of a walk.
+        wheelset = package.Wheelset(estimate=False, rail_stiffness=(3e4, 6e4))
+        with self.assertRaisesRegex(package.FaststripError, "would lift"):
+            rigid.solve(y=6.6, speed=2e4, axle_load=1.6e5)
+        found = wheelset.solve(y=6.6, speed=2e4, axle_load=1.6e5)
+        for y in np.linspace(0.0, 6.6, 34):
+            walked = wheelset.solve(y=y, speed=2e4, axle_load=1.6e5, warm_start=y > 0.0)
+        self.assertLess(abs(found.force - walked.force).max(), 1.0)
         # A contact by Hertz' law over a spring: approach and deflection add up.
         hertz, sprung = (package.Wheelset(normal="hertz", tangential="none", estimate=False, **more)
                          for more in ({}, {"rail_stiffness": (0.0, 6e4)}))
