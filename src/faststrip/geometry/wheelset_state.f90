@@ -136,8 +136,15 @@ contains
         real(wp), intent(in) :: radius              !! nominal one of the wheel, mm
 
         rolls_back = state%speed - (state%yaw_rate + state%speed*state%curvature)*lever &
-                     < (state%pitch_rate - 0.5_wp*state%pitch_rate_difference)*radius
+                     < right_pitch_rate(state)*radius
     end function rolls_back
+
+    ! The pitch rate of the right wheel, rad/s.
+    pure real(wp) function right_pitch_rate(state)
+        type(wheelset_state_t), intent(in) :: state
+
+        right_pitch_rate = state%pitch_rate - 0.5_wp*state%pitch_rate_difference
+    end function right_pitch_rate
 
     !> The state with the pitch rate of pure rolling where none was said.
     elemental type(wheelset_state_t) function rolling_state(state, radius) result(rolling)
@@ -280,7 +287,7 @@ contains
             fastest
 
         arm = point - axes%centre
-        pitch = (state%pitch_rate - 0.5_wp*state%pitch_rate_difference)*axes%axle
+        pitch = right_pitch_rate(state)*axes%axle
         ! The track itself turns in a curve, with all that is on it.
         turning = state%roll_rate*axes%ahead + state%yaw_rate*axes%down &
                   + [0.0_wp, 0.0_wp, state%speed*state%curvature]
