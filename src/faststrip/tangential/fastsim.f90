@@ -64,7 +64,7 @@ module faststrip_tangential_fastsim
     use faststrip_tangential_strip_slip, only: patch_motion, rest_of_slip, slip_between, add_between
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           empty_field, empty_strip_forces, add_element, &
-                                          stick_share, state_adhesion, state_slip
+                                          match_power, stick_share, state_adhesion, state_slip
     implicit none
     private
 
@@ -152,6 +152,7 @@ contains
                                    combined_shear_modulus(material), mu, nx, ny), creepage, &
                          chosen(variant), result, areas, field, friction)
         result%stick_fraction = stick_share(areas%stuck, areas%covered)
+        if (present(field)) call match_power(result%friction_power, 1, field)
     end subroutine fastsim_solve
 
     !> Forces by FASTSIM on an ellipse with creepage coefficients the caller has, what vehicle codes
@@ -205,6 +206,7 @@ contains
             call add_ellipse(ellipse_t(hertz%a, hertz%b, hertz%y, hertz%load, c, g, mu, nx, ny), &
                              creepage, chosen(), result, areas, field)
             result%stick_fraction = stick_share(areas%stuck, areas%covered)
+            if (present(field)) call match_power(result%friction_power, 1, field)
         end if
     end subroutine fastsim_coefficients_solve
 
@@ -289,6 +291,7 @@ contains
                              friction, strips, per_strip)
         end do
         result%stick_fraction = stick_share(areas%stuck, areas%covered)
+        if (present(field)) call match_power(result%friction_power, 1, field)
     end subroutine fastsim_curved_solve
 
     !> Refuse what no FASTSIM can work on, and empty the field.

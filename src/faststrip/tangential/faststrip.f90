@@ -113,7 +113,7 @@ module faststrip_tangential_faststrip
                                                 most_hot_points
     use faststrip_tangential_strip_slip, only: patch_motion
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
-                                          empty_strip_forces, empty_field, field_power, &
+                                          empty_strip_forces, empty_field, match_power, &
                                           most_points, stick_share
     implicit none
     private
@@ -685,24 +685,4 @@ contains
             begin = i
         end do
     end subroutine march_by_means
-
-    !> Scale the slip of a patch so that its elements give the patch's friction power; by a factor
-    !> of two at most, for where next to nothing slides the heat is in no element.
-    pure subroutine match_power(power, first, field)
-        real(wp), intent(in) :: power                    !! N
-        integer, intent(in) :: first                     !! first element of the patch
-        type(tangential_field_t), intent(inout) :: field !! with the patch's elements last
-
-        real(wp) :: heat, factor
-        integer :: i
-
-        heat = 0.0_wp
-        do i = first, field%n
-            heat = heat + field%area(i)*field_power(field, i)
-        end do
-        if (heat <= 0.0_wp) return
-        factor = min(max(power/heat, 0.5_wp), 2.0_wp)
-        field%sx(first:field%n) = factor*field%sx(first:field%n)
-        field%sy(first:field%n) = factor*field%sy(first:field%n)
-    end subroutine match_power
 end module faststrip_tangential_faststrip

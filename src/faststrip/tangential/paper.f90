@@ -43,7 +43,7 @@ module faststrip_tangential_paper
     use faststrip_tangential_kalker, only: kalker_coefficients_t, kalker_coefficients
     use faststrip_tangential_motion, only: check_motion
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, empty_field, &
-                                          add_element, most_points, stick_share, &
+                                          add_element, most_points, match_power, stick_share, &
                                           state_adhesion, state_slip
     implicit none
     private
@@ -173,6 +173,7 @@ contains
             covered = covered + total%covered
         end do
         result%stick_fraction = stick_share(stuck, covered)
+        if (present(field)) call match_power(result%friction_power, 1, field)
     end subroutine solve_patches
 
     !> Eqs. (25)-(48) statement by statement on one patch, with the chosen ones as printed.

@@ -8,7 +8,7 @@ module faststrip_tangential_types
 
     public :: strip_forces_t, reserve_strip_forces, empty_strip_forces, copy_strip_forces
     public :: tangential_result_t, tangential_field_t, reserve_field, empty_field, add_element, &
-              put_element, field_power, stick_share
+              put_element, field_power, match_power, stick_share
     public :: state_adhesion, state_slip, most_points
 
     !> State of an element, the numbers CONTACT uses.
@@ -213,4 +213,24 @@ contains
 
         field_power = -(field%px(i)*field%sx(i) + field%py(i)*field%sy(i))
     end function field_power
+
+    !> Scale the slip of elements so that they give the friction power; by a factor of two at most,
+    !> for where next to nothing slides the heat is in no element.
+    pure subroutine match_power(power, first, field)
+        real(wp), intent(in) :: power                    !! N
+        integer, intent(in) :: first                     !! first of the elements
+        type(tangential_field_t), intent(inout) :: field !! with the elements last
+
+        real(wp) :: heat, factor
+        integer :: i
+
+        heat = 0.0_wp
+        do i = first, field%n
+            heat = heat + field%area(i)*field_power(field, i)
+        end do
+        if (heat <= 0.0_wp) return
+        factor = min(max(power/heat, 0.5_wp), 2.0_wp)
+        field%sx(first:field%n) = factor*field%sx(first:field%n)
+        field%sy(first:field%n) = factor*field%sy(first:field%n)
+    end subroutine match_power
 end module faststrip_tangential_types

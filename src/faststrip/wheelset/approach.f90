@@ -27,7 +27,7 @@ module faststrip_wheelset_approach
     !> A force as near as this to its load is found, where no step comes nearer.
     !> Tuned [1]. Origin: chosen: a hundred times what solutions of a contact miss.
     real(wp), parameter :: near_enough = 1.0e-8_wp
-    !> The same from the last solution.
+    !> The same from the last solution, at a roll that is given.
     !> Tuned [1]. Origin: chosen: two solutions do over 10 um, where with 1e-8 it is three.
     real(wp), parameter :: near_load = 1.0e-7_wp
     ! A bracket that is closed, of its upper end: there the force jumps. That of a smooth contact
