@@ -13,7 +13,7 @@ module faststrip_wheelset_approach
 
     public :: approach_search_t, start_search, take_force, is_found, is_near, usual_approach
     public :: spring_share, find_spring_step
-    public :: largest_jump, near_enough, near_load, most_growth, equilibrium, most_tries
+    public :: largest_jump, near_enough, warm_enough, most_growth, equilibrium, most_tries
     public :: telling, hertz_power
     public :: roll_search_t, next_roll, most_roll_step
 
@@ -29,7 +29,7 @@ module faststrip_wheelset_approach
     real(wp), parameter :: near_enough = 1.0e-8_wp
     !> The same from the last solution, at a roll that is given.
     !> Tuned [1]. Origin: chosen: two solutions do over 10 um, where with 1e-8 it is three.
-    real(wp), parameter :: near_load = 1.0e-7_wp
+    real(wp), parameter :: warm_enough = 1.0e-7_wp
     ! A bracket that is closed, of its upper end: there the force jumps. That of a smooth contact
     ! changes by less than near_enough within it.
     real(wp), parameter :: least_bracket = 0.25_wp*near_enough

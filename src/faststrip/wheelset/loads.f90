@@ -8,7 +8,7 @@ module faststrip_wheelset_loads
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
     use faststrip_wheelset_approach, only: approach_search_t, start_search, take_force, &
                                            is_found, is_near, usual_approach, equilibrium, &
-                                           near_enough, near_load, hertz_power, roll_search_t, &
+                                           near_enough, warm_enough, hertz_power, roll_search_t, &
                                            next_roll
     use faststrip_wheelset_height, only: set_outline, try_height, as_right, wheel_sums_t, &
                                          sums_of, hand_over
@@ -108,7 +108,7 @@ contains
             if (is_warm) then
                 ! A roll that is searched for asks for more digits.
                 call start_search(search, load, workspace%wheel(side)%approach, &
-                                  max(demand%tolerance, merge(near_enough, near_load, &
+                                  max(demand%tolerance, merge(near_enough, warm_enough, &
                                                               demand%roll_is_free)), &
                                   demand%bracket, &
                                   workspace%wheel(side)%slope)
