@@ -33,9 +33,8 @@ module faststrip_wheelset_solve_springs
 contains
 
     !> Rails without mass on springs: each is displaced by u beside where the state has it, with
-    !> K u = F, F the force of its wheel. What the last solution leads nowhere with is solved afresh;
-    !> where rails that are not yet displaced carry no axle load, they begin where half of it on each
-    !> puts them.
+    !> K u = F, F the force of its wheel. Where the last solution leads nowhere, afresh; where rails
+    !> that are not yet displaced carry no axle load, from where half of it on each puts them.
     subroutine solve_on_springs(model, workspace, state, demand, result, status)
         type(wheelset_model_t), intent(in) :: model            !! made
         type(wheelset_workspace_t), intent(inout) :: workspace !! reserved for it
