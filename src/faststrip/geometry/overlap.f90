@@ -93,10 +93,10 @@ contains
 
     contains
 
-        logical function overlaps(k)
+        logical function overlaps(k) result(does)
             integer, intent(in) :: k
 
-            call look_whether_lower(outline, pair, k, lowered, overlaps)
+            call look_whether_lower(outline, pair, k, lowered, does)
         end function overlaps
 
         ! The point between two regions that stands highest over the rail.
