@@ -55,13 +55,13 @@ contains
 
     !> One wheel at a height by its table.
     subroutine try_table(model, workspace, state, side, z, wheel, share)
-        type(wheelset_model_t), intent(in) :: model  !! made
+        type(wheelset_model_t), intent(in) :: model         !! made
         type(wheelset_workspace_t), intent(in) :: workspace !! of the wheelset
-        type(wheelset_state_t), intent(in) :: state  !! its z does not count, mm, rad
-        integer, intent(in) :: side                  !! `side_right` or `side_left`
-        real(wp), intent(in) :: z                    !! of the wheelset's centre, mm
-        type(wheel_result_t), intent(inout) :: wheel !! as of a right wheel
-        real(wp), intent(out) :: share               !! that the table has there, 0: none
+        type(wheelset_state_t), intent(in) :: state         !! its z does not count, mm, rad
+        integer, intent(in) :: side                         !! `side_right` or `side_left`
+        real(wp), intent(in) :: z                           !! of the wheelset's centre, mm
+        type(wheel_result_t), intent(inout) :: wheel        !! as of a right wheel
+        real(wp), intent(out) :: share                      !! that the table has there, 0: none
 
         share = 0.0_wp
         if (associated(model%lookup)) &

@@ -137,7 +137,7 @@ contains
             call try_height(model, workspace, state, side, touch + search%best, wheel, &
                             by_strips=.true.)
         ! What is left of the load is left of the height, too.
-        if (search%misfit > 0.0_wp .and. search%slope > 0.0_wp) search%best = search%best &
+        if (is_found(search) .and. search%slope > 0.0_wp) search%best = search%best &
             + (1.0_wp - (wheel%force(3)/load)**(1.0_wp/hertz_power))/search%slope
         workspace%wheel(side)%approach = search%best
         workspace%wheel(side)%slope = search%slope

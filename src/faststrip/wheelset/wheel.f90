@@ -27,6 +27,7 @@ module faststrip_wheelset_wheel
     use faststrip_geometry_overlap, only: region_t, find_regions, most_regions
     use faststrip_geometry_wheel_on_rail, only: wheel_on_rail_t, rail_origin, on_rail_profile, &
                                                 unrolled
+    use faststrip_geometry_wheel_outline, only: lowered_axes
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, wheelset_axes_t, &
                                                  rail_state_t, on_roller_t, rigid_creepage, &
                                                  approach_rate, rail_velocity, cross
@@ -162,7 +163,7 @@ contains
         type(wheelset_axes_t) :: axes
         integer :: i
 
-        axes = lowered_axes(workspace, lowered)
+        axes = lowered_axes(workspace%outline, lowered)
         case = model%case
         case%estimate = .false.
         do i = 1, wheel%n
@@ -292,7 +293,7 @@ contains
         type(rail_state_t) :: rail
         real(wp) :: height, place(3), share
 
-        axes = lowered_axes(workspace, lowered)
+        axes = lowered_axes(workspace%outline, lowered)
         height = model%gap_height
         if (case%stays) height = min(height, near_height*region%depth)
         rail = workspace%outline%state%rail(1)
@@ -554,15 +555,6 @@ contains
             end associate
         end subroutine add_miss
     end subroutine solve_apart
-
-    ! The axes of a wheelset that is lowered beyond the state of a wheel's outline.
-    pure type(wheelset_axes_t) function lowered_axes(workspace, lowered) result(axes)
-        type(wheel_workspace_t), intent(in) :: workspace
-        real(wp), intent(in) :: lowered
-
-        axes = workspace%outline%axes
-        axes%centre(3) = axes%centre(3) + lowered
-    end function lowered_axes
 
     !> Creepages, speed and approach rate of a contact.
     subroutine find_motion(model, pair, state, axes, frame, case, contact)

@@ -28,7 +28,7 @@ module faststrip_geometry_wheel_outline
     private
 
     public :: outline_t, reserve_outline, move_outline, lower_outline, see_points, see_point
-    public :: may_be_lower, look_whether_lower, lowest_height, cell_of, cell_end
+    public :: may_be_lower, look_whether_lower, lowest_height, lowered_axes, cell_of, cell_end
 
     ! Tuned [points]: in a cell. Origin: measured: with half as many a step of a wheelset costs 2 %
     ! more, with twice as many it costs the same.
@@ -254,17 +254,18 @@ contains
         real(wp), intent(out) :: slope            !! dz/dy of the outline there
         logical, intent(out) :: is_there          !! has the wheel an outline there?
 
-        call outline_point(pair, outline%state%rail(1), lowered_axes(outline), pair%y(i), &
-                           pair%z(i), pair%slope(i), point, slope, is_there)
+        call outline_point(pair, outline%state%rail(1), lowered_axes(outline, outline%lowered), &
+                           pair%y(i), pair%z(i), pair%slope(i), point, slope, is_there)
         point(3) = point(3) - outline%lowered
     end subroutine see_point
 
-    ! The axes of the state, over a roller with the height of the wheel.
-    pure type(wheelset_axes_t) function lowered_axes(outline) result(axes)
-        type(outline_t), intent(in) :: outline
+    !> The axes of a wheelset that is lowered beyond the state of a wheel's outline.
+    pure type(wheelset_axes_t) function lowered_axes(outline, lowered) result(axes)
+        type(outline_t), intent(in) :: outline !! at a state
+        real(wp), intent(in) :: lowered        !! mm
 
         axes = outline%axes
-        axes%centre(3) = axes%centre(3) + outline%lowered
+        axes%centre(3) = axes%centre(3) + lowered
     end function lowered_axes
 
     pure subroutine see_cell(outline, pair, cell)
@@ -282,7 +283,7 @@ contains
         left = huge(1.0_wp)
         right = -huge(1.0_wp)
         span = rail_span(pair, outline%state%rail(1))
-        axes = lowered_axes(outline)
+        axes = lowered_axes(outline, outline%lowered)
         do i = (cell - 1)*cell_points + 1, min(cell*cell_points, size(outline%x))
             call outline_point(pair, outline%state%rail(1), axes, pair%y(i), pair%z(i), &
                                pair%slope(i), point, outline%slope(i), has_outline)
