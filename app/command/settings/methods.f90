@@ -4,7 +4,7 @@ module faststrip_command_settings_methods
     use faststrip_base_status, only: status_t
     use faststrip_base_thermal, only: of_wheel, of_rail
     use faststrip_contact_case, only: contact_case_t
-    use faststrip_contact_methods, only: method_t, normal_method, tangential_method, &
+    use faststrip_contact_methods, only: normal_method, tangential_method, &
                                          tangential_none
     use faststrip_contact_wanted, only: target_pmax
     use faststrip_geometry_undeformed_gap, only: standard_gap_step, standard_gap_height
@@ -15,7 +15,7 @@ module faststrip_command_settings_methods
     implicit none
     private
 
-    public :: settings_t, put_setting, settle_wanted, in_core
+    public :: settings_t, put_setting, settle_wanted
 
     ! Given: millimetres of a micrometre.
     real(wp), parameter :: mm_per_um = 1.0e-3_wp
@@ -112,14 +112,6 @@ contains
             end select
         end associate
     end subroutine put_setting
-
-    !> Is it a method of the embeddable core?
-    pure logical function in_core(table, number)
-        type(method_t), intent(in) :: table(:) !! `normal_table` or `tangential_table`
-        integer, intent(in) :: number          !! of the method
-
-        in_core = any(table%number == number .and. table%in_core)
-    end function in_core
 
     !> Settle what auto is asked for, when all is given: pmax, where neither a target nor forces are
     !> asked for; a budget alone, where no tolerance is given beside it.

@@ -3,8 +3,8 @@ module faststrip_command_wheelset_case
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, is_error
     use faststrip_geometry_profile, only: profile_t
-    use faststrip_contact_methods, only: normal_table, tangential_table, normal_auto, &
-                                         normal_method_name, tangential_method_name
+    use faststrip_contact_methods, only: normal_table, tangential_table, is_in_core, &
+                                         normal_auto, normal_method_name, tangential_method_name
     use faststrip_wheelset_types, only: wheelset_model_t, standard_accuracy
     use faststrip_wheelset_model, only: make_wheelset, set_damping, set_rail_stiffness
     use faststrip_command_program_console, only: fail_on_error
@@ -12,7 +12,7 @@ module faststrip_command_wheelset_case
     use faststrip_command_settings_friction, only: read_friction_group
     use faststrip_command_settings_group, only: case_text_t, group_t, read_case_text, need_groups, &
                                                 read_group, is_set, text_of, refuse
-    use faststrip_command_settings_methods, only: settings_t, in_core
+    use faststrip_command_settings_methods, only: settings_t
     use faststrip_command_settings_profiles, only: bodies_t, read_bodies
     use faststrip_command_wheelset_states, only: given_state_t
     implicit none
@@ -101,10 +101,10 @@ contains
         type(wheelset_case_t), intent(in) :: case
 
         if (case%methods%normal == normal_auto &
-            .or. .not. in_core(normal_table, case%methods%normal)) &
+            .or. .not. is_in_core(normal_table, case%methods%normal)) &
             call refuse(group, 'normal', 'must be a method of strips or ellipses for a table', &
                         trim(normal_method_name(case%methods%normal)))
-        if (.not. in_core(tangential_table, case%methods%tangential)) &
+        if (.not. is_in_core(tangential_table, case%methods%tangential)) &
             call refuse(group, 'tangential', 'must be a method of the library for a table', &
                         trim(tangential_method_name(case%methods%tangential)))
         if (case%damping > 0.0_wp) &

@@ -13,7 +13,8 @@ module faststrip_lab_extremes_influence
     use faststrip_tables_quadrature, only: quadrature_influence
     use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
                                       refit_row
-    use faststrip_influence_row, only: influence_column, influence_column_at
+    use faststrip_influence_equal_column, only: influence_column
+    use faststrip_influence_offcentre_column, only: influence_column_gradient
     use faststrip_tables_polynomials, only: basis_chebyshev, polynomial_value
     use faststrip_lab_grid_cases, only: read_rows
     use faststrip_lab_extremes_rows, only: row_t, put_row, status_of
@@ -178,7 +179,8 @@ contains
         type(csv_writer_t), intent(inout) :: writer
 
         integer, parameter :: own_distances(4) = [0, 1, 10, 1000000]
-        real(wp) :: cl, cr, value, d_x, d_half_length, abs_error, column(1), uncertainty
+        real(wp) :: cl, cr, value, d_x, d_half_length, abs_error, uncertainty
+        real(wp), dimension(1) :: column, d_xs, d_halfs
         real(qp) :: exact
         type(status_t) :: status
         type(row_t) :: row
@@ -197,7 +199,7 @@ contains
                 call put('closed', strip_influence_at(places(j), cl, cr))
                 call strip_influence_gradient(places(j), 1.0_wp, cl, cr, value, d_x, d_half_length)
                 call put('gradient', value)
-                call influence_column_at(1.0_wp, cl, cr, places(j:j), [0.0_wp], column)
+                call influence_column_gradient(1.0_wp, cl, cr, places(j:j), [0.0_wp], column, d_xs, d_halfs)
                 call put('column', column(1))
                 call quadrature_influence(n, b, places(j), value, abs_error, status)
                 call put('gsl', value)

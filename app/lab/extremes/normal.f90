@@ -5,7 +5,7 @@ module faststrip_lab_extremes_normal
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
     use faststrip_files_csv, only: csv_writer_t
-    use faststrip_influence_row, only: center_influence_column
+    use faststrip_influence_center_column, only: center_influence_column
     use faststrip_numerics_lapack, only: dgetrf, dgecon
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_types, only: normal_result_t

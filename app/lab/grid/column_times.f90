@@ -3,7 +3,8 @@
 module faststrip_lab_grid_column_times
     use faststrip_base_kinds, only: wp
     use faststrip_command_program_clock, only: cpu_microseconds
-    use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
+    use faststrip_influence_center_column, only: center_influence_column, &
+                                                 center_influence_column_gradient
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
     use faststrip_normal_strips, only: contact_strips_t
     implicit none

@@ -16,10 +16,8 @@ module faststrip_lab_grid_trade
     use faststrip_lab_grid_trade_times, only: solution_columns, time_solution
     use faststrip_command_program_clock, only: spread_of, spread_names, cpu_columns
     use faststrip_command_program_console, only: fail_on_error, progress, begin_table, end_table
-    use faststrip_command_settings_methods, only: in_core
     use faststrip_contact_methods, only: normal_method_name, tangential_method_name, &
-                                         normal_table, &
-                                         normal_norm, tangential_tang
+                                         normal_table, is_in_core, normal_norm, tangential_tang
     use faststrip_command_contact_solver, only: solver_t, new_solver, free_solver, solve
     use faststrip_contact_case, only: contact_case_t
     use faststrip_contact_method, only: contact_result_t, times_t
@@ -147,7 +145,7 @@ contains
                 call put_cells(writer, errors, counts)
                 call put_cells(writer, times, is_known=runs > 0)
                 is_timed = runs > 0 .and. entry%stage == 'normal' &
-                           .and. in_core(normal_table, entry%settings%methods%normal)
+                           .and. is_in_core(normal_table, entry%settings%methods%normal)
                 if (is_timed) call time_solution(solver%workspace, contact, solution, is_timed)
                 call put_cells(writer, solution, is_known=is_timed)
                 call end_row(writer)

@@ -16,7 +16,7 @@ module faststrip_lab_studies_integral
     use faststrip_tables_quadrature, only: quadrature_influence, quadrature_influence_2d
     use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
                                       refit_row, fit_lsq
-    use faststrip_influence_row, only: influence_column
+    use faststrip_influence_equal_column, only: influence_column
     use faststrip_lab_studies_exact_influence, only: exact_influence, qp
     use faststrip_lab_studies_polynomials, only: power_of_ten_influence, power_of_ten_row
     use faststrip_command_program_clock, only: median, spread_of

@@ -12,7 +12,7 @@ module faststrip_contact_derivatives
     use faststrip_contact_method, only: workspace_t, contact_result_t, normal_method_t, &
                                         tangential_method_t
     use faststrip_contact_methods, only: normal_auto, normal_table, tangential_table, &
-                                         tangential_none
+                                         tangential_none, is_in_core
     use faststrip_contact_parts, only: check_methods, find_pressures, add_forces
     use faststrip_numerics_environment, only: environment_t, hold_environment, restore_environment
     use faststrip_normal_types, only: demand_t
@@ -181,10 +181,8 @@ contains
         type(contact_case_t), intent(in) :: case !! methods, smoothing
 
         stays_the_same = case%methods%normal /= normal_auto .and. .not. case%smoothing > 0.0_wp &
-                         .and. any(normal_table%number == case%methods%normal &
-                                   .and. normal_table%in_core) &
-                         .and. any(tangential_table%number == case%methods%tangential &
-                                   .and. tangential_table%in_core)
+                         .and. is_in_core(normal_table, case%methods%normal) &
+                         .and. is_in_core(tangential_table, case%methods%tangential)
     end function stays_the_same
 
     !> Refuse derivatives of methods that change from state to state.

@@ -9,10 +9,9 @@ module faststrip_contact_methods
     implicit none
     private
 
-    public :: contact_methods_t, check_contact_methods, normal_method, tangential_method
+    public :: contact_methods_t, normal_method, tangential_method
     public :: normal_method_name, tangential_method_name, method_name_length
-    public :: method_t, normal_table, tangential_table
-    public :: gives_elements, gives_stick, takes_falling
+    public :: method_t, normal_table, tangential_table, is_in_core
     public :: most_strips, most_rows, usual_rows, usual_side
     public :: check_normal_method, check_tangential_method, check_resolutions
     public :: start_strips, start_last
@@ -180,16 +179,6 @@ module faststrip_contact_methods
 
 contains
 
-    !> Refuse methods that do not exist and resolutions out of range.
-    pure subroutine check_contact_methods(methods, status)
-        type(contact_methods_t), intent(in) :: methods !! as the caller set them
-        type(status_t), intent(out) :: status          !! `st_bad_argument`
-
-        call check_normal_method(methods%normal, status)
-        if (.not. is_error(status)) call check_tangential_method(methods%tangential, status)
-        if (.not. is_error(status)) call check_resolutions(methods, status)
-    end subroutine check_contact_methods
-
     !> Refuse a number that is no normal method of the core.
     pure subroutine check_normal_method(number, status)
         integer, intent(in) :: number         !! as the caller set it
@@ -278,27 +267,13 @@ contains
         name = name_of(tangential_table, method)
     end function tangential_method_name
 
-    !> Does a tangential method know tractions, or forces only?
-    elemental logical function gives_elements(method)
-        integer, intent(in) :: method !! one of the `tangential_` numbers
+    !> Is it a method of the library's core?
+    pure logical function is_in_core(table, number)
+        type(method_t), intent(in) :: table(:) !! `normal_table` or `tangential_table`
+        integer, intent(in) :: number          !! of the method
 
-        gives_elements = any(tangential_table%number == method .and. &
-                             tangential_table%gives_elements)
-    end function gives_elements
-
-    !> Does a tangential method know how much of the contact sticks?
-    elemental logical function gives_stick(method)
-        integer, intent(in) :: method !! one of the `tangential_` numbers
-
-        gives_stick = any(tangential_table%number == method .and. tangential_table%gives_stick)
-    end function gives_stick
-
-    !> Does a tangential method take friction that falls with slip?
-    elemental logical function takes_falling(method)
-        integer, intent(in) :: method !! one of the `tangential_` numbers
-
-        takes_falling = any(tangential_table%number == method .and. tangential_table%takes_falling)
-    end function takes_falling
+        is_in_core = any(table%number == number .and. table%in_core)
+    end function is_in_core
 
     !> The row of a number; number -1 if there is none.
     pure type(method_t) function row_of(table, number) result(row)

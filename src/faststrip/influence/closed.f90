@@ -15,19 +15,16 @@
 !>
 !> Arguments that are not finite give a quiet NaN; nothing here raises a floating-point exception.
 module faststrip_influence_closed
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, &
-                                             ieee_positive_inf
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp, pi
     use faststrip_base_limits, only: beyond_all
     use faststrip_influence_closed_coefficients, only: a_small, b_small, r_large, r_centre, &
                                                        a_short, b_short, r_short, short_last
-    use faststrip_numerics_elliptic, only: complete_elliptic_d
     use faststrip_numerics_logarithm, only: log_1p
     implicit none
     private
 
-    public :: influence_primitive, influence_primitive_slope
-    public :: strip_influence, strip_influence_slope
+    public :: influence_primitive, strip_influence
     public :: strip_influence_edges, strip_influence_center_gradient
     public :: c_small, c_large, c_near, c_far, table_end
 
@@ -93,29 +90,6 @@ contains
         g = sign(g, c)
     end function influence_primitive
 
-    !> G'(c) = 2 sqrt(1 + c^2) [K(m) - E(m)], m = 1/(1 + c^2), even; +Inf at c = 0.
-    elemental real(wp) function influence_primitive_slope(c) result(slope)
-        real(wp), intent(in) :: c !! edge of the strip over its half-length, any size and sign
-
-        ! Edges nearer to the field point than this need the first term only.
-        real(wp), parameter :: tiny_c = sqrt(epsilon(1.0_wp))
-        real(wp) :: size, root
-
-        if (.not. ieee_is_finite(c)) then
-            slope = ieee_value(slope, ieee_quiet_nan)
-            return
-        end if
-        size = abs(c)
-        if (size > tiny_c) then
-            root = hypot(1.0_wp, size)
-            slope = 2.0_wp*complete_elliptic_d((size/root)**2)/root
-        else if (size > 0.0_wp) then
-            slope = 2.0_wp*(log_4 - log(size) - 1.0_wp)
-        else
-            slope = ieee_value(slope, ieee_positive_inf)
-        end if
-    end function influence_primitive_slope
-
     !> i_n(b) of eq. (12), equal strips; 0 for b <= 0. Relative error below 1e-15 for b in
     !> [1e-8, 1e8] and n up to 1e4.
     elemental real(wp) function strip_influence(n, b) result(value)
@@ -175,33 +149,6 @@ contains
             value = influence_primitive(cr) - influence_primitive(cl)
         end if
     end function strip_influence
-
-    !> di_n/db, equal strips, `(2n + 1) G'((2n + 1)b) - (2n - 1) G'((2n - 1)b)`; 0 for b <= 0.
-    !> Relative error below 2e-15 (2n + 2): 4e-11 at n = 1e4.
-    elemental real(wp) function strip_influence_slope(n, b) result(slope)
-        integer, intent(in) :: n  !! distance of the strips in strips, its sign ignored
-        real(wp), intent(in) :: b !! half-width over half-length of the strip with the pressure, > 0
-
-        real(wp) :: distance, cl, cr
-
-        slope = 0.0_wp
-        if (.not. ieee_is_finite(b)) then
-            slope = ieee_value(slope, ieee_quiet_nan)
-        else if (b <= 0.0_wp .or. (n /= 0 .and. b > beyond_all)) then
-            return
-        else if (n == 0) then
-            slope = 2.0_wp*influence_primitive_slope(b)
-        else
-            distance = 2.0_wp*abs(real(n, wp))
-            cl = (distance - 1.0_wp)*b
-            cr = (distance + 1.0_wp)*b
-            if (cl >= c_far) then
-                slope = (moment_deficit(cl) - moment_deficit(cr))/b
-            else
-                slope = (primitive_moment(cr) - primitive_moment(cl))/b
-            end if
-        end if
-    end function strip_influence_slope
 
     !> G(c_right) - G(c_left): influence of a strip of any width at any point of its centre line,
     !> inside it or outside; without cancellation, antisymmetric in its arguments.
@@ -277,17 +224,6 @@ contains
         end if
         moment = sign(moment, c)
     end function primitive_moment
-
-    !> pi/2 - c G'(c) for c >= c_far.
-    elemental real(wp) function moment_deficit(c) result(deficit)
-        real(wp), intent(in) :: c
-
-        real(wp) :: w, q(2)
-
-        w = (1.0_wp/c)**2
-        q = divided_difference(r_short, w, w)
-        deficit = 2.0_wp*w*(q(1) + w*q(2))
-    end function moment_deficit
 
     !> G(cr) - G(cl) for c_large <= cl <= cr.
     elemental real(wp) function far_difference(cl, cr) result(value)

@@ -1,7 +1,7 @@
 !> Columns of influence coefficients at the tips of strips, as many and as exact as an iteration
 !> needs.
 !>
-!> The same integrals as in faststrip_influence_row to a relative 3e-8, by
+!> The same integrals as in faststrip_influence_offcentre_column to a relative 3e-8, by
 !> faststrip_influence_angle_sums with the accuracy `coarse`. What fits no rule goes to the scalar
 !> procedure of faststrip_influence_offcentre.
 module faststrip_influence_tip

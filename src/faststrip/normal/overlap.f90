@@ -8,7 +8,7 @@ module faststrip_normal_overlap
     implicit none
     private
 
-    public :: overlap_t, most_overlaps, find_overlaps, overlap_outside
+    public :: overlap_t, most_ranges, find_overlaps, overlap_outside
     public :: overlap_tolerance, named_overlap
 
     !> Overlaps that are left, over the penetration: of cells as of strips.
@@ -20,9 +20,9 @@ module faststrip_normal_overlap
 
     ! Tuned [points]. Origin: capacity.
     integer, parameter :: max_scan = 64 ! points scanned in one stretch outside the patches
-    !> Most overlaps that are found at a time.
-    !> Tuned [overlaps]. Origin: capacity.
-    integer, parameter :: most_overlaps = 64
+    !> Most ranges of y that press, and most that overlap, at a time.
+    !> Tuned [ranges]. Origin: capacity.
+    integer, parameter :: most_ranges = 64
 
     ! Tuned [strip widths]: Places beside an end, in widths of its strip. Origin: chosen.
     real(wp), parameter :: beside(6) = [0.5_wp, 0.7_wp, 0.9_wp, 1.2_wp, 1.6_wp, 2.2_wp]
@@ -51,7 +51,7 @@ contains
         real(wp), intent(in) :: width                 !! of a strip: two places are looked at in it
         type(overlap_t), intent(out) :: found(:)      !! those found, then ones of no depth
 
-        real(wp) :: y_from(most_overlaps), y_to(most_overlaps), low
+        real(wp) :: y_from(most_ranges), y_to(most_ranges), low
         integer :: i, m, n, p
 
         n = 0

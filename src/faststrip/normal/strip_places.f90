@@ -12,7 +12,7 @@
 module faststrip_normal_strip_places
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t
-    use faststrip_influence_row, only: influence_column_gradient
+    use faststrip_influence_offcentre_column, only: influence_column_gradient
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_numerics_spline, only: spline_setup, spline_value, spline_not_a_knot, interval_of
     implicit none

@@ -9,7 +9,7 @@ module faststrip_normal_strips
 
     public :: contact_strips_t, reserve_strips, copy_strips, mirror_strips
     public :: strip_load, strips_load, load_of, middle_of
-    public :: starts_patch, ends_patch, first_of_patch, last_of_patch
+    public :: starts_patch, ends_patch, last_of_patch
     public :: usual_strips, usual_strip_tolerance
 
     !> Strips across a patch where nobody says how many, and points along each.
@@ -156,17 +156,6 @@ contains
         ends_patch = k == strips%n
         if (k < strips%n) ends_patch = strips%patch(k + 1) /= strips%patch(k)
     end function ends_patch
-
-    !> The first strip of the patch that strip k belongs to.
-    pure integer function first_of_patch(strips, k) result(first)
-        type(contact_strips_t), intent(in) :: strips !! a normal solution
-        integer, intent(in) :: k                     !! one of its strips
-
-        do first = k, 2, -1
-            if (starts_patch(strips, first)) return
-        end do
-        first = 1
-    end function first_of_patch
 
     !> The last strip of the patch that strip `first` belongs to.
     pure integer function last_of_patch(strips, first) result(last)

@@ -7,8 +7,8 @@ module faststrip_wheelset_guide
     use faststrip_base_kinds, only: wp
     use faststrip_contact_case, only: contact_case_t, asked_t
     use faststrip_contact_derivatives, only: stays_the_same
-    use faststrip_contact_methods, only: normal_table, tangential_table, normal_strip, &
-                                         normal_auto, tangential_faststrip
+    use faststrip_contact_methods, only: normal_table, tangential_table, is_in_core, &
+                                         normal_strip, normal_auto, tangential_faststrip
     implicit none
     private
 
@@ -27,10 +27,9 @@ contains
     pure subroutine take_guide(case)
         type(contact_case_t), intent(inout) :: case !! gets strips, FASTSTRIP, nothing besides
 
-        if (.not. any(normal_table%number == case%methods%normal .and. normal_table%in_core) &
+        if (.not. is_in_core(normal_table, case%methods%normal) &
             .or. case%methods%normal == normal_auto) case%methods%normal = normal_strip
-        if (.not. any(tangential_table%number == case%methods%tangential &
-                      .and. tangential_table%in_core)) &
+        if (.not. is_in_core(tangential_table, case%methods%tangential)) &
             case%methods%tangential = tangential_faststrip
         case%smoothing = 0.0_wp
         case%asked = asked_t()

@@ -11,9 +11,9 @@ module faststrip_wheelset_wheel
     use faststrip_contact_solve, only: set_contact_gap, solve_contact, solve_contact_forces, &
                                        estimate_contact, name_yield
     use faststrip_contact_method, only: workspace_t
-    use faststrip_contact_methods, only: contact_methods_t, normal_table, normal_auto, &
-                                         normal_strip, normal_hertz, tangential_linear, &
-                                         tangential_none
+    use faststrip_contact_methods, only: contact_methods_t, normal_table, is_in_core, &
+                                         normal_auto, normal_strip, normal_hertz, &
+                                         tangential_linear, tangential_none
     use faststrip_contact_target, only: target_error, name_target
     use faststrip_contact_wanted, only: wanted_t, needs_forces
     use faststrip_tangential_force_errors, only: force_errors_t
@@ -115,7 +115,7 @@ contains
                           case%curved, frames(:n))
         ! Kalker's methods leave no strips.
         are_near = any(near(:n - 1) > 0.0_wp) .and. &
-                   any(normal_table%number == case%methods%normal .and. normal_table%in_core)
+                   is_in_core(normal_table, case%methods%normal)
         if (.not. are_near) near = 0.0_wp
         if (are_near .and. .not. case%warm_start) workspace%contact(:n)%strips%n = 0
         do pass = 1, most_steps

@@ -8,7 +8,7 @@ program kernels
     use faststrip_base_creepage, only: creepage_t
     use faststrip_influence_closed, only: strip_influence
     use faststrip_influence_offcentre, only: strip_influence_at, strip_influence_gradient
-    use faststrip_influence_row, only: influence_column_gradient
+    use faststrip_influence_offcentre_column, only: influence_column_gradient
     use faststrip_base_material, only: material_t, normal_compliance
     use faststrip_geometry_gap, only: gap_t
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve

@@ -6,40 +6,14 @@ module faststrip_influence_offcentre_column
     use faststrip_base_kinds, only: wp
     use faststrip_influence_angle_rules, only: fine
     use faststrip_influence_angle_sums, only: angle_column
-    use faststrip_influence_offcentre, only: strip_influence_at, strip_influence_gradient
+    use faststrip_influence_offcentre, only: strip_influence_gradient
     use faststrip_influence_plain_sizes, only: is_plain
     implicit none
     private
 
-    public :: influence_column_at, influence_column_gradient
+    public :: influence_column_gradient
 
 contains
-
-    !> Influence of a strip on any points; `strip_influence_at` for each.
-    pure subroutine influence_column_at(half_length, y_left, y_right, x, y, value)
-        real(wp), intent(in) :: half_length !! xd of the strip that carries the pressure, mm, > 0
-        real(wp), intent(in) :: y_left      !! its left edge, mm
-        real(wp), intent(in) :: y_right     !! its right edge, mm
-        real(wp), intent(in) :: x(:)        !! field points along the strip, (n), mm
-        real(wp), intent(in) :: y(:)        !! field points across, (n), mm
-        real(wp), intent(out) :: value(:)         !! influence I, (n), mm
-
-        real(wp) :: d_x, d_half_length
-        integer :: k
-        logical :: plain
-
-        plain = is_plain(half_length, abs(y_left)) .and. is_plain(1.0_wp, abs(y_right))
-        do k = 1, size(y)
-            if (plain .and. is_plain(1.0_wp, abs(x(k))) .and. is_plain(1.0_wp, abs(y(k)))) then
-                value(k) = half_length*strip_influence_at(x(k)/half_length, &
-                                                          (y_left - y(k))/half_length, &
-                                                          (y_right - y(k))/half_length)
-            else
-                call strip_influence_gradient(x(k), half_length, y_left - y(k), y_right - y(k), &
-                                              value(k), d_x, d_half_length)
-            end if
-        end do
-    end subroutine influence_column_at
 
     !> Influence of a strip on any points, and its derivatives as in `strip_influence_gradient`;
     !> relative error 1e-10, of d_x relative to I/xd where that is larger.

@@ -41,12 +41,11 @@ module faststrip_influence_offcentre
     use faststrip_influence_offcentre_near, only: near_moments, smooth_near_moments
     use faststrip_influence_offcentre_series, only: series_moments
     use faststrip_influence_offcentre_folded, only: folded_moments
-    use faststrip_influence_offcentre_slope, only: strip_influence_edge_slope
     use faststrip_numerics_logarithm, only: log_1p
     implicit none
     private
 
-    public :: strip_influence_at, strip_influence_gradient, strip_influence_edge_slope
+    public :: strip_influence_at, strip_influence_gradient
 
     ! Given: ln 2.
     real(wp), parameter :: log_2 = 0.693147180559945309417232121458176568_wp

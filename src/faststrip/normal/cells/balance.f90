@@ -5,7 +5,7 @@
 !> long as they become fewer, then one at a time. The tips then ask for other lengths.
 module faststrip_normal_cells_balance
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_influence_row, only: center_influence_column
+    use faststrip_influence_center_column, only: center_influence_column
     use faststrip_influence_tip, only: tip_influence_column
     use faststrip_normal_cells, only: cells_t, start_lengths
     use faststrip_normal_strip_figures, only: correction_of

@@ -17,7 +17,7 @@ module faststrip_normal_simple_kpec_strips
     use faststrip_base_status, only: status_t, is_error, add_limitation, st_fallback_used, &
                                      st_under_resolved
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
-    use faststrip_influence_row, only: center_influence_column
+    use faststrip_influence_center_column, only: center_influence_column
     use faststrip_normal_simple_approximate, only: lowest_between
     use faststrip_normal_simple_kpec, only: kpec_solve
     use faststrip_normal_patch_curves, only: curve_peak

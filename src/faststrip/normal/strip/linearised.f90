@@ -15,7 +15,8 @@
 !> the growth (`linear_change`).
 module faststrip_normal_strip_linearised
     use faststrip_base_kinds, only: wp
-    use faststrip_influence_row, only: center_influence_column, center_influence_column_gradient
+    use faststrip_influence_center_column, only: center_influence_column, &
+                                                 center_influence_column_gradient
     use faststrip_influence_tip, only: tip_influence_column, tip_influence_column_gradient
     use faststrip_normal_strip_equations, only: start_residual, start_jacobian, &
                                                 add_column, end_jacobian
