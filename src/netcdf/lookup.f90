@@ -17,6 +17,7 @@ module faststrip_netcdf_lookup
     use faststrip_lookup_table, only: lookup_t, lookup_kind_wheel, n_contact_numbers, &
                                       at_load, at_area
     use faststrip_netcdf_columns, only: fill_number
+    use faststrip_netcdf_file, only: deflate_level
     implicit none
     private
 
@@ -60,8 +61,6 @@ module faststrip_netcdf_lookup
 
     character(len=*), parameter :: face_words = 'x1_x2_positive x1_x2_negative x2_positive ' // &
                                                 'x2_negative x3_x2_positive x3_x2_negative'
-    ! Tuned [1]: how hard to compress, of 9. Origin: as of tables.
-    integer, parameter :: deflate_level = 1
 
 contains
 

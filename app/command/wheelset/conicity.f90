@@ -1,7 +1,7 @@
 !> `faststrip conicity`: equivalent conicity from profiles or from a rolling radius difference.
 module faststrip_command_wheelset_conicity
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: rounding
+    use faststrip_base_limits, only: rounding, most_points
     use faststrip_base_status, only: status_t, is_error, number_text, status_word, &
                                      st_out_of_range, st_not_increasing, st_no_wave
     use faststrip_base_text, only: integer_text, parse_real, trim_blanks, set_place_status
@@ -28,9 +28,6 @@ module faststrip_command_wheelset_conicity
 
     ! Given: EN 15302:2008+A1:2010, Annex E: the least amplitude and the step, mm.
     real(wp), parameter :: first_amplitude = 1.0_wp, amplitude_step = 0.1_wp
-    ! More amplitudes, or shifts to one side, are a slip of the step.
-    ! Tuned [amplitudes, shifts]. Origin: safeguard.
-    integer, parameter :: most_values = 1000000
     ! Far enough for amplitudes of 7.5 mm and unequal radii, mm.
     ! Tuned [mm]. Origin: chosen.
     real(wp), parameter :: standard_y_max = 10.0_wp
@@ -110,8 +107,8 @@ contains
             path = command%arguments(1)%text
             y_max = option_number(command, '--y-max', standard_y_max, above=0)
             y_step = option_number(command, '--y-step', amplitude_step, above=0)
-            if (y_max/y_step > most_values) call usage_error('--y-step must leave at most ' &
-                // integer_text(most_values) // ' shifts, got ' // trim(number_text(y_step)), &
+            if (y_max/y_step > most_points) call usage_error('--y-step must leave at most ' &
+                // integer_text(most_points) // ' shifts, got ' // trim(number_text(y_step)), &
                 command%name)
             if (y_step > y_max) call usage_error('--y-step must be at most --y-max, got ' &
                 // trim(number_text(y_step)) // ' and ' // trim(number_text(y_max)), command%name)
@@ -233,8 +230,8 @@ contains
             call fail(exit_bad_input, 'the table ends before the amplitude, got ' &
                       // trim(number_text(from)) // ', at most ' // trim(number_text(largest)) &
                       // ' mm (' // path // ')')
-        if ((to - from)/step > most_values) &
-            call usage_error('--step must leave at most ' // integer_text(most_values) &
+        if ((to - from)/step > most_points) &
+            call usage_error('--step must leave at most ' // integer_text(most_points) &
                              // ' amplitudes, got ' // trim(number_text(step)), command%name)
         amplitudes = [(from + i*step, i=0, int((to - from)/step + rounding))]
     end subroutine take_steps

@@ -12,7 +12,7 @@ module faststrip_command_wheelset_point_spacing
     use faststrip_wheelset_solve, only: solve_wheelset
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_demand_t, wheelset_result_t, wheel_contact_t, &
-                                        wheel_result_t, side_right, side_left
+                                        wheel_result_t, side_right, side_left, standard_join
     use faststrip_command_contact_point_spacing, only: point_spacing_t, name_spacing
     use faststrip_command_wheelset_case, only: wheelset_case_t, try_model
     implicit none
@@ -20,9 +20,8 @@ module faststrip_command_wheelset_point_spacing
 
     public :: wheelset_spacing_t, prepare_spacing, name_wheelset_spacing
 
-    ! Tuned [mm]: farther apart contacts are not the same one. Origin: chosen: half the way at which
-    ! they become one.
-    real(wp), parameter :: farthest = 4.0_wp
+    ! Farther apart contacts are not the same one, mm: half the way at which they become one.
+    real(wp), parameter :: farthest = 0.5_wp*standard_join
     ! Tuned [1]: of the force of its wheel, below which a contact does not count. Origin: chosen.
     real(wp), parameter :: least_share = 0.01_wp
 

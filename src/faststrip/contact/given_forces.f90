@@ -43,7 +43,7 @@ module faststrip_contact_given_forces
     implicit none
     private
 
-    public :: check_given_forces, solve_given_forces, estimate_given_forces
+    public :: check_given_forces, solve_given_forces, estimate_given_forces, jump_of_force
 
     ! Tuned [1]: of forces, over mu N. Origin: chosen: a thousandth of what methods differ by; a
     ! tenth of it takes one solution more.
@@ -61,9 +61,9 @@ module faststrip_contact_given_forces
     integer, parameter :: most_solutions = 40
     ! Tuned [solutions]: without coming nearer. Origin: safeguard: steps are then a 256th.
     integer, parameter :: most_in_vain = 8
-    ! Tuned [1]: of forces, over mu N, that methods jump by at a creepage. Origin: measured:
-    ! FASTSTRIP does by 1e-4 at some creepages.
-    real(wp), parameter :: jump = 5.0e-4_wp
+    !> What forces, or moments, of methods jump by at a creepage, over their bound.
+    !> Tuned [1]. Origin: measured: FASTSTRIP does by 1e-4 at some creepages.
+    real(wp), parameter :: jump_of_force = 5.0e-4_wp
     ! Tuned [1]: change that is believed, over that of the slopes so far, at least and at most.
     ! Origin: safeguard.
     real(wp), parameter :: least_change = 0.1_wp, most_change = 4.0_wp
@@ -248,7 +248,7 @@ contains
             if (is_error(status)) return
             call lay_strips(workspace%solver%curve, tried, workspace%strips)
             is_found = size_of(map, forces_got(workspace, result, lean) - forces) &
-                       <= jump*map%force
+                       <= jump_of_force*map%force
         end if
         if (.not. is_found) then
             call refuse_search(method%about%name, size_of(map, forces), largest, status)

@@ -5,7 +5,7 @@ module faststrip_contact_methods
                                      st_bad_argument
     use faststrip_normal_strip, only: strips_auto
     use faststrip_normal_strips, only: usual_strips
-    use faststrip_tangential_types, only: most_points
+    use faststrip_tangential_types, only: most_points, most_rows
     implicit none
     private
 
@@ -137,9 +137,6 @@ module faststrip_contact_methods
 
     !> Most strips per patch: as many as points along one.
     integer, parameter :: most_strips = most_points
-    !> Most rows, and most points along a row, of FASTSIM.
-    !> Tuned [rows]. Origin: capacity.
-    integer, parameter :: most_rows = 10000
 
     !> Most elements of a grid of norm or tang, unless the user says otherwise.
     !> Tuned [elements]. Origin: capacity: solved within about five seconds on one core; the time

@@ -1,6 +1,7 @@
 !> Memory of a contact's workspace: the only allocation.
 module faststrip_contact_reserve
     use, intrinsic :: iso_fortran_env, only: int64
+    use faststrip_base_limits, only: most_gap_points => most_points
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      st_bad_argument, st_workspace_too_small
     use faststrip_geometry_gap, only: min_gap_points
@@ -18,11 +19,7 @@ module faststrip_contact_reserve
     implicit none
     private
 
-    public :: reserve_workspace, reserve_contact_field, reserve_contact_loads, most_gap_points
-
-    !> Most points of a gap.
-    !> Tuned [points]. Origin: capacity.
-    integer, parameter :: most_gap_points = 1000000
+    public :: reserve_workspace, reserve_contact_field, reserve_contact_loads
 
 contains
 

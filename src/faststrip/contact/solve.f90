@@ -29,15 +29,13 @@ module faststrip_contact_solve
     use faststrip_contact_wanted, only: clear_steps
     use faststrip_contact_wear, only: find_wear
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_strips
+    use faststrip_normal_strips, only: usual_strip_tolerance
     implicit none
     private
 
     public :: set_contact_gap, set_contact_curve, set_contact_ellipse
     public :: solve_contact, solve_contact_forces, estimate_contact, name_yield
 
-    ! Tuned [1]: of the load, how near pressures on a curved surface come to it. Origin: as the
-    ! strips' last step.
-    real(wp), parameter :: near_load = 1.0e-6_wp
     ! Tuned [solutions]: of pressures whose turned force is the load. Origin: safeguard: three or
     ! four are taken.
     integer, parameter :: most_loads = 12
@@ -201,7 +199,7 @@ contains
             call clear_steps(workspace%steps)
             call solve_by_methods(workspace, case, normal, tangential, result, status)
             if (is_error(status)) return
-            if (abs(result%normal%load - case%load) <= near_load*case%load) return
+            if (abs(result%normal%load - case%load) <= usual_strip_tolerance*case%load) return
             if (.not. result%normal%load > 0.0_wp) exit
             workspace%load_factor = workspace%load_factor*(case%load/result%normal%load)
         end do

@@ -8,6 +8,7 @@
 module faststrip_lookup_hertz
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_size
     use faststrip_base_status, only: status_t, set_status, number_text, st_ok, &
                                      st_bad_argument, st_not_finite, st_out_of_range, st_bad_load
     use faststrip_lookup_axis, only: stencil_t, linear_stencil, cubic_stencil
@@ -22,10 +23,6 @@ module faststrip_lookup_hertz
     !> Numbers of a state: a, b (mm), N (N), mu, G (MPa), cksi, ceta, cphi (rad/mm).
     !> Given: what forces on an ellipse depend on.
     integer, parameter :: n_lookup_state = 8
-
-    ! Tuned [1]: normalised creepages above are refused. Origin: safeguard against overflow; all
-    ! slides from 1e3 on.
-    real(wp), parameter :: most_creepage = 1.0e30_wp
 
 contains
 
@@ -78,7 +75,7 @@ contains
         x = linear*[state(6), state(7), c*state(8)]
         scale_slope = scale_slope*x
         x = scale*x
-        if (.not. maxval(abs(x)) <= most_creepage) then
+        if (.not. maxval(abs(x)) <= largest_size) then
             call set_status(status, st_out_of_range, 'creepages beyond all proportion')
             return
         end if

@@ -13,6 +13,7 @@
 module faststrip_lookup_wheel
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: largest_size, most_halvings
     use faststrip_base_status, only: status_t, set_status, number_text, st_ok, &
                                      st_bad_argument, st_not_finite, st_out_of_range
     use faststrip_lookup_axis, only: lookup_axis_t, stencil_t, linear_stencil, cubic_stencil
@@ -31,9 +32,6 @@ module faststrip_lookup_wheel
     !> Given: what contacts and forces depend on.
     integer, parameter :: n_wheel_place = 3, n_wheel_state = 7
 
-    ! Tuned [1]: normalised creepages are cut there. Origin: safeguard against overflow; all slides
-    ! from 1e3 on.
-    real(wp), parameter :: most_creepage = 1.0e30_wp
     ! Tuned [N]: no contact below. Origin: safeguard: nothing is divided by less.
     real(wp), parameter :: least_load = 1.0e-6_wp
     ! Powers of N that numbers grow with, as the table's are over them: area, pmax, the lengths.
@@ -41,10 +39,8 @@ module faststrip_lookup_wheel
     real(wp), parameter :: powers(at_area:n_contact_numbers) = &
         [2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp, 2.0_wp, 3.0_wp]/3.0_wp
 
-    ! Tuned [1, steps]: of the load, how near a height is met, and how often it is tried. Origin:
-    ! safeguard: Newton's method takes four.
+    ! Tuned [1]: of the load, how near a height is met. Origin: chosen: some hundred roundings.
     real(wp), parameter :: near_load = 1.0e-13_wp
-    integer, parameter :: most_tries = 60
 
     ! Nodes about a place: four along each axis.
     integer, parameter :: most_about = 4**n_wheel_place
@@ -131,7 +127,7 @@ contains
         root = numbers(at_load, 0)**(1.0_wp/3.0_wp)
         linear = numbers(at_creep:at_spin, 0)*(lookup%wheel%shear/state(4))
         linear(:2) = linear(:2)/root
-        x = min(max(linear*state(5:7), -most_creepage), most_creepage)
+        x = min(max(linear*state(5:7), -largest_size), largest_size)
         call find_faces_cell(lookup%q, lookup%ratio, order, x, cell)
         if (order == lookup_cubic) call find_place(lookup, lookup_linear, state(:n_wheel_place), &
                                                    place)
@@ -183,7 +179,7 @@ contains
             do k = 1, width(3)
                 heights(k) = height_of(in_rise%first + k - 1)
             end do
-            do i = 1, most_tries
+            do i = 1, most_halvings
                 miss = dot_product(in_rise%w(:width(3)), heights(:width(3))) - z
                 if (miss > 0.0_wp) then
                     high = rise

@@ -2,15 +2,12 @@
 !> stress.
 module faststrip_stress_invariants
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_stress_rectangle, only: n_stresses
     implicit none
     private
 
     public :: von_mises, principal_stresses, tresca
-
-    ! Tuned [sweeps]: of Jacobi's method. Origin: safeguard: it converges quadratically; five have
-    ! all digits.
-    integer, parameter :: most_sweeps = 20
 
 contains
 
@@ -34,7 +31,7 @@ contains
         integer :: sweep, k
 
         a = reshape([s(1), s(4), s(5), s(4), s(2), s(6), s(5), s(6), s(3)], [3, 3])
-        do sweep = 1, most_sweeps
+        do sweep = 1, most_steps
             if (abs(a(1, 2)) + abs(a(1, 3)) + abs(a(2, 3)) <= tiny(c)) exit
             do k = 1, 3
                 associate (i => first(k), j => second(k), o => other(k))

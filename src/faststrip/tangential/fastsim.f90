@@ -64,16 +64,13 @@ module faststrip_tangential_fastsim
     use faststrip_tangential_strip_slip, only: patch_motion, rest_of_slip, slip_between, add_between
     use faststrip_tangential_types, only: tangential_result_t, tangential_field_t, strip_forces_t, &
                                           empty_field, empty_strip_forces, add_element, &
-                                          match_power, stick_share, state_adhesion, state_slip
+                                          match_power, stick_share, state_adhesion, state_slip, &
+                                          most_rows
     implicit none
     private
 
     public :: fastsim_solve, fastsim_strips_solve, fastsim_coefficients_solve, fastsim_variant_t
     public :: fastsim_curved_solve, fastsim_rolling_t
-
-    ! The most elements along x and strips across.
-    ! Tuned [elements]. Origin: capacity.
-    integer, parameter :: most_elements = 10000
 
     !> What is not Kalker's standard choice.
     type :: fastsim_variant_t
@@ -305,7 +302,7 @@ contains
 
         call check_motion(mu, creepage, status)
         if (is_error(status)) return
-        if (nx < 1 .or. ny < 1 .or. max(nx, ny) > most_elements) then
+        if (nx < 1 .or. ny < 1 .or. max(nx, ny) > most_rows) then
             call set_status(status, st_bad_argument, 'elements along and across must be 1 to ' // &
                             '10000, got ' // trim(count_text(nx)) // ' and ' // count_text(ny))
             return

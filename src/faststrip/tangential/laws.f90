@@ -66,7 +66,6 @@ module faststrip_tangential_laws
     integer, parameter :: law_shen_hedrick_elkins = 2 !! cubic saturation
     integer, parameter :: law_polach = 3              !! Polach's, with his spin
 
-
 contains
 
     !> Forces by a law on a Hertz ellipse.

@@ -9,7 +9,7 @@ module faststrip_tangential_types
     public :: strip_forces_t, reserve_strip_forces, empty_strip_forces, copy_strip_forces
     public :: tangential_result_t, tangential_field_t, reserve_field, empty_field, add_element, &
               put_element, field_power, match_power, stick_share
-    public :: state_adhesion, state_slip, most_points
+    public :: state_adhesion, state_slip, most_points, most_rows
 
     !> State of an element, the numbers CONTACT uses.
     !> Given: CONTACT's numbers.
@@ -19,6 +19,9 @@ module faststrip_tangential_types
     !> The most points along a strip.
     !> Tuned [points]. Origin: capacity.
     integer, parameter :: most_points = 1000
+    !> Most rows, and most points along a row, of FASTSIM.
+    !> Tuned [rows]. Origin: capacity.
+    integer, parameter :: most_rows = 10000
 
     !> Sums over the contact; forces act on the rail.
     type :: tangential_result_t

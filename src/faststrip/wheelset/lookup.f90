@@ -10,6 +10,7 @@
 !> end, linearly.
 module faststrip_wheelset_lookup
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, clear_status, is_error
     use faststrip_contact_case, only: contact_case_t
     use faststrip_geometry_contact_frame, only: contact_frame_t
@@ -52,8 +53,6 @@ module faststrip_wheelset_lookup
     ! Tuned [1]: vertical force that is found, of the load. Origin: chosen: far below what tables
     ! miss.
     real(wp), parameter :: near_enough = 1.0e-9_wp
-    ! Tuned [steps]: how often it is tried. Origin: safeguard: three to five are taken.
-    integer, parameter :: most_tries = 30
 
 contains
 
@@ -92,7 +91,7 @@ contains
         load = within(wanted)
         load_before = 0.0_wp
         miss_before = -wanted
-        do i = 1, most_tries
+        do i = 1, most_steps
             height = 0.0_wp
             call find_place(model, pair, state, .true., load, height, place, contacts, share)
             if (share > 0.0_wp) call find_forces(model, pair, state, place, height, contacts, &

@@ -20,7 +20,7 @@ module faststrip_wheelset_types
     public :: wheelset_model_t, wheelset_demand_t, wheel_contact_t, wheel_result_t
     public :: wheelset_result_t, wheel_workspace_t, wheelset_workspace_t, path_t
     public :: side_right, side_left, demand_position, demand_loads, demand_axle_load, demand_rest
-    public :: most_contacts, standard_accuracy, is_same_demand
+    public :: most_contacts, standard_accuracy, standard_join, is_same_demand
 
     !> Given: places in arrays of both sides.
     integer, parameter :: side_right = 1

@@ -7,9 +7,9 @@
 module faststrip_interop_c_many
     use, intrinsic :: iso_c_binding, only: c_int, c_size_t, c_intptr_t, c_ptr, c_sizeof, &
                                            c_null_ptr, c_loc, c_associated, c_f_pointer
+    use faststrip_base_limits, only: most_gap_points => most_points
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, count_text, &
                                      message_length, st_bad_argument
-    use faststrip_contact_reserve, only: most_gap_points
     use faststrip_geometry_gap, only: min_gap_points
     use faststrip_interop_c, only: put_text
     use faststrip_interop_c_solve, only: take_gap, solve_fields

@@ -1,6 +1,7 @@
 !> Where a strip solution starts when nothing is known yet.
 module faststrip_normal_strip_start
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: most_steps
     use faststrip_base_status, only: status_t, is_error
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at, level_intervals
     use faststrip_normal_simple_hertz, only: hertz_t, hertz_solve
@@ -33,8 +34,6 @@ contains
         ! the search starts decides which of the levels within 5 % it ends with.
         ! Tuned [1]. Origin: 0.01 mm at 100 kN on steel.
         real(wp), parameter :: first_level = 0.02_wp
-        ! Tuned [levels]: most tried up, and down. Origin: safeguard: all that can be represented.
-        integer, parameter :: max_levels = 100
         real(wp) :: low, high, level, y_from(max_patches), y_to(max_patches)
         type(hertz_t) :: hertz
         logical :: wider
@@ -42,13 +41,13 @@ contains
 
         high = demand%penetration
         if (demand%by_load) high = first_level*sqrt(compliance*demand%load)
-        do i = 1, max_levels
+        do i = 1, most_steps
             call fit_ellipse(curve, compliance, demand, high, y_from, y_to, patches%n, hertz, wider)
             if (.not. wider) exit
             high = factor*high
         end do
         low = high/factor
-        do i = 1, max_levels
+        do i = 1, most_steps
             call fit_ellipse(curve, compliance, demand, low, y_from, y_to, patches%n, hertz, wider)
             if (wider) exit
             high = low

@@ -16,6 +16,7 @@
 !> all of a row have one length.
 module faststrip_tangential_heat_flash
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: rounding
     use faststrip_base_status, only: status_t, set_status, clear_status, count_text, &
                                      st_out_of_range
     use faststrip_base_thermal, only: heating_t
@@ -40,10 +41,6 @@ module faststrip_tangential_heat_flash
         real(wp) :: length = 0.0_wp    ! of each along x, mm
         real(wp) :: area = 0.0_wp      ! of each, mm^2
     end type row_t
-
-    ! What may lie between numbers that are the same.
-    ! Tuned [1]. Origin: rounding.
-    real(wp), parameter :: nearly = 1.0e-9_wp
 
 contains
 
@@ -100,7 +97,7 @@ contains
         temperature = heat%away
         do while (row%last < field%n)
             call next_row(field, row)
-            if (abs(y - field%y(row%first)) > (0.5_wp + nearly)*row%area/row%length) cycle
+            if (abs(y - field%y(row%first)) > (0.5_wp + rounding)*row%area/row%length) cycle
             edge = field%x(row%first) + 0.5_wp*row%length
             if (x >= edge) return
             ! Of the other body's temperature what is left.
@@ -143,6 +140,6 @@ contains
         end do
         if (row%last > row%first) return
         row%length = sqrt(row%area)
-        if (abs(area - row%area) <= nearly*area) row%length = length
+        if (abs(area - row%area) <= rounding*area) row%length = length
     end subroutine next_row
 end module faststrip_tangential_heat_flash

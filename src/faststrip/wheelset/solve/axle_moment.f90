@@ -7,6 +7,7 @@ module faststrip_wheelset_solve_axle_moment
     use faststrip_base_material, only: combined_shear_modulus
     use faststrip_base_status, only: status_t, set_status, is_error, number_text, st_bad_argument, &
                                      st_beyond_adhesion
+    use faststrip_contact_given_forces, only: jump_of_force
     use faststrip_geometry_wheelset_state, only: wheelset_state_t, check_state, pure_rolling, &
                                                  wheelset_axes_t, wheelset_axes
     use faststrip_wheelset_solve_motion, only: solve_motion
@@ -17,9 +18,9 @@ module faststrip_wheelset_solve_axle_moment
 
     public :: solve_on_rails
 
-    ! Tuned [1]: of a moment about the axle, over mu N r: it is found, and what methods jump by at a
-    ! slip. Origin: chosen: the pitch rate to 1e-6 up to .999 of it; as of given forces.
-    real(wp), parameter :: near_moment = 1.0e-6_wp, jump_of_moment = 5.0e-4_wp
+    ! Tuned [1]: of a moment about the axle, over mu N r: it is found. Origin: chosen: the pitch rate
+    ! to 1e-6 up to .999 of it.
+    real(wp), parameter :: near_moment = 1.0e-6_wp
     ! Tuned [1]: a quarter of the longest first step of slip. Origin: chosen: half of saturation.
     real(wp), parameter :: first_slip = 5.0e-4_wp
     ! Tuned [1]: fall of the linear moment over mu N r with slip, at least. Origin: safeguard: a
@@ -128,7 +129,7 @@ contains
                 if (abs(ends(k)) >= 1.0_wp) slip = ends(k)
             end if
         end do
-        if (abs(figures%moment - demand%axle_moment) <= jump_of_moment*figures%bound) return
+        if (abs(figures%moment - demand%axle_moment) <= jump_of_force*figures%bound) return
         workspace%has_last = .false.
         result%wheel%n = 0
         call set_status(status, st_beyond_adhesion, 'the moment about the axle must not be above ' &

@@ -4,8 +4,8 @@ module faststrip_wheelset_solve_springs
     use faststrip_base_status, only: status_t, set_status, is_error, st_no_convergence, &
                                      st_no_contact
     use faststrip_geometry_wheelset_state, only: wheelset_state_t
-    use faststrip_wheelset_approach, only: usual_approach, spring_share, find_spring_step, &
-                                           hertz_power
+    use faststrip_wheelset_approach, only: usual_approach, near_enough, spring_share, &
+                                           find_spring_step, hertz_power
     use faststrip_wheelset_height, only: set_outline
     use faststrip_wheelset_model, only: check_workspace
     use faststrip_wheelset_solve_axle_moment, only: solve_on_rails
@@ -21,9 +21,6 @@ module faststrip_wheelset_solve_springs
 
     ! Given: y and z of both rails.
     integer, parameter :: n_directions = 4
-    ! Tuned [1]: what may be missing of the balance of a rail and its spring, of the force. Origin:
-    ! chosen: as loads are found.
-    real(wp), parameter :: near_deflection = 1.0e-8_wp
     ! Tuned [solutions]: of a wheelset, until they are in balance; in a quarter of them steps that
     ! leave more than before are taken back. Origin: safeguard: three to six are taken, on rails
     ! that go to the side by millimetres up to 60; of 250 loads on springs at random 249 are found
@@ -131,7 +128,7 @@ contains
             if (demand%wants(side_left)) force(3:) = result%wheel(side_left)%force(2:3)
             left = merge(force - stiffness*u, 0.0_wp, stiffness > 0.0_wp)
             workspace%deflection = reshape(u, [2, 2])
-            if (all(abs(left) <= near_deflection*norm2(force))) return
+            if (all(abs(left) <= near_enough*norm2(force))) return
             is_worse = .false.
             if (is_first) then
                 slope = first_slope(demand, result)
