@@ -22,7 +22,8 @@ module faststrip_wheelset_derivatives
     use faststrip_wheelset_predict, only: yaw_lever
     use faststrip_wheelset_types, only: wheelset_model_t, wheelset_workspace_t, &
                                         wheelset_result_t, wheel_result_t, side_right, side_left
-    use faststrip_wheelset_wheel, only: move_wheel, mirror_wheel, reverse_wheel
+    use faststrip_wheelset_wheel, only: move_wheel
+    use faststrip_wheelset_wheel_flip, only: flip_wheel, other_way, other_side
     implicit none
     private
 
@@ -179,8 +180,8 @@ contains
         subroutine turn_back(there)
             type(wheel_result_t), intent(inout) :: there
 
-            if (workspace%is_reversed(side)) call reverse_wheel(there)
-            if (side == side_left) call mirror_wheel(there)
+            if (workspace%is_reversed(side)) call flip_wheel(other_way, there)
+            if (side == side_left) call flip_wheel(other_side, there)
         end subroutine turn_back
 
         subroutine solve(i, outlined, found)

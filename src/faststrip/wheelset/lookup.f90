@@ -26,8 +26,9 @@ module faststrip_wheelset_lookup
     use faststrip_lookup_wheel, only: look_up_contacts, look_up_wheel, load_at_height, &
                                       is_in_table, n_wheel_place
     use faststrip_wheelset_types, only: wheelset_model_t, wheel_result_t, wheel_contact_t
-    use faststrip_wheelset_wheel, only: find_motion, take_motion, place_on_wheel, &
-                                        find_contact_force, add_contacts
+    use faststrip_wheelset_wheel, only: add_contacts
+    use faststrip_wheelset_wheel_motion, only: find_motion, take_motion, place_on_wheel, &
+                                               find_contact_force
     implicit none
     private
 

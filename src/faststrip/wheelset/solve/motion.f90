@@ -24,7 +24,8 @@ module faststrip_wheelset_solve_motion
                                         wheelset_workspace_t, side_right, side_left, &
                                         demand_position, demand_loads, demand_axle_load, &
                                         demand_rest
-    use faststrip_wheelset_wheel, only: estimate_wheel, name_pressures, mirror_wheel, reverse_wheel
+    use faststrip_wheelset_wheel, only: estimate_wheel, name_pressures
+    use faststrip_wheelset_wheel_flip, only: flip_wheel, other_way, other_side
     use faststrip_wheelset_wheel_neighbours, only: estimate_loads, add_load_errors
     implicit none
     private
@@ -89,7 +90,7 @@ contains
         call solve_checked(model, workspace, moving, prescribed, result, status)
         do side = side_right, side_left
             if (workspace%is_reversed(side) .and. demand%wants(side)) &
-                call reverse_wheel(result%wheel(side))
+                call flip_wheel(other_way, result%wheel(side))
         end do
         if (workspace%has_last) call remember_heights(model, workspace, moving, prescribed)
         call restore_environment(environment)
@@ -345,7 +346,7 @@ contains
                 if (.not. is_error(wheel%status)) call name_pressures(model%case%yield, wheel)
                 wheel%roll = state%roll
                 if (side == side_left) wheel%roll = -wheel%roll
-                if (side == side_left) call mirror_wheel(wheel)
+                if (side == side_left) call flip_wheel(other_side, wheel)
                 state%z = wheel%z
                 if (is_error(wheel%status)) then
                     status = wheel%status
