@@ -296,13 +296,12 @@ contains
     end function option_number
 
     !> The option's value as a whole number; a usage error if it is none or out of range.
-    integer function option_integer(command, name, default, least, most, or) result(value)
+    integer function option_integer(command, name, default, least, most) result(value)
         type(command_t), intent(in) :: command !! a parsed command
         character(len=*), intent(in) :: name   !! with its dashes
         integer, intent(in) :: default         !! if it was not given
         integer, intent(in), optional :: least !! smallest allowed
         integer, intent(in), optional :: most  !! largest allowed
-        character(len=*), intent(in), optional :: or !! what else may stand there, for the message
 
         character(len=:), allocatable :: what
         logical :: valid
@@ -320,7 +319,6 @@ contains
             what = what // ' to ' // integer_text(most)
             valid = valid .and. value <= most
         end if
-        if (present(or)) what = what // ' or ' // or
         if (.not. valid) call refuse_value(command, name, what)
     end function option_integer
 

@@ -26,8 +26,8 @@ module faststrip_geometry_gap_curve
     implicit none
     private
 
-    public :: gap_curve_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points, copy_gap_curve
-    public :: gap_at, gap_slopes, gap_curvature, level_intervals
+    public :: gap_curve_t, gap_figures_t, reserve_gap_curve, set_gap_curve, set_gap_curve_points
+    public :: copy_gap_curve, gap_at, gap_slopes, gap_curvature, level_intervals
     public :: mirror_gap_curve, valley_below
     public :: gap_inv2r, gap_inclination, inclination_change, largest_step, first_point_from
 
@@ -46,26 +46,30 @@ module faststrip_geometry_gap_curve
     ! by 0.07 over 0.8 mm; a kink of twice as much is one of the profile.
     real(wp), parameter :: most_turn = 0.08_wp
 
-    !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
-    type :: gap_curve_t
-        integer :: version = 0   !! of what was set: changes whenever a gap is taken over
-        integer :: n = 0         !! number of points
-        integer :: n_pieces = 0  !! number of monotone pieces, between n_pieces + 1 nodes
+    !> What a gap's curve knows besides its points.
+    type :: gap_figures_t
+        integer :: n = 0              !! number of points
+        integer :: n_pieces = 0       !! number of monotone pieces, between n_pieces + 1 nodes
         real(wp) :: y_lowest = 0.0_wp !! where the gap is lowest, mm
         real(wp) :: h_lowest = 0.0_wp !! lowest height, mm
-        logical :: is_image = .false. !! see `side_of`
-        logical :: is_even = .false.  !! is it its own mirror image?
+        real(wp) :: least_inv2r = 0.0_wp
+            !! `gap_at` raises A to this, 1/mm; 0 if A is positive nowhere
+        logical :: is_image = .false.  !! see `side_of`
+        logical :: is_even = .false.   !! is it its own mirror image?
+        logical :: has_steps = .false. !! is any interval a step?
+        logical :: inclination_is_known = .false. !! does `inclination` count?
+    end type gap_figures_t
+
+    !> A gap ready to be evaluated; its arrays belong to the caller's workspace.
+    type, extends(gap_figures_t) :: gap_curve_t
+        integer :: version = 0   !! of what was set: changes whenever a gap is taken over
         real(wp), allocatable :: y(:), h(:)    !! points, mm
         real(wp), allocatable :: slope_from(:) !! h' of interval i at point i
         real(wp), allocatable :: slope_to(:)   !! h' of interval i at point i + 1
-        logical :: has_steps = .false.         !! is any interval a step?
         logical, allocatable :: is_step(:)     !! is interval i a step, which no curve goes through?
         real(wp), allocatable :: inv2r(:)      !! A = 1/(2R) at the points, 1/mm
         integer, allocatable :: even_to(:)     !! last point up to which A is that of point i
-        real(wp) :: least_inv2r = 0.0_wp       !! `gap_at` raises A to this, 1/mm; 0 if A is
-                                               !! positive nowhere
-        logical :: inclination_is_known = .false.     !! does `inclination` count?
-        real(wp), allocatable :: inclination(:)       !! of the surfaces from the tangent plane, rad
+        real(wp), allocatable :: inclination(:) !! of the surfaces from the tangent plane, rad
         type(gap_blocks_t) :: inclined         !! blocks of these
         real(wp), allocatable :: y_node(:), h_node(:) !! ends of the monotone pieces, mm
         type(gap_blocks_t) :: blocks           !! of these ends
@@ -155,14 +159,7 @@ contains
         n = from%n
         nodes = from%n_pieces + 1
         to%version = next_version(to)
-        to%n = n
-        to%n_pieces = from%n_pieces
-        to%y_lowest = from%y_lowest
-        to%h_lowest = from%h_lowest
-        to%least_inv2r = from%least_inv2r
-        to%is_image = from%is_image
-        to%is_even = from%is_even
-        to%inclination_is_known = from%inclination_is_known
+        to%gap_figures_t = from%gap_figures_t
         if (n == 0) return
         to%y(:n) = from%y(:n)
         to%h(:n) = from%h(:n)
@@ -175,7 +172,6 @@ contains
             to%inclination(:n) = from%inclination(:n)
             call copy_blocks(from%inclined, to%inclined, n)
         end if
-        to%has_steps = from%has_steps
         call copy_blocks(from%blocks, to%blocks, nodes)
         to%y_node(:nodes) = from%y_node(:nodes)
         to%h_node(:nodes) = from%h_node(:nodes)
