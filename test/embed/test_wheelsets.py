@@ -476,6 +476,19 @@ class Interfaces(HostTest):
             next_one = {**states[-1], "y": y + 0.7}
             self.assertEqual(figures(again.solve(**next_one)), figures(wheelset.solve(**next_one)))
 
+    def test_a_cold_call_does_not_know_of_those_before(self):
+        package = self.import_package()
+
+        # The roll that one load asks for is no start for another one, in any round of `auto`.
+        for made in ({}, {"normal": "auto"}):
+            for y in (7.2, 8.3, -7.9):
+                used, fresh = package.Wheelset(**made), package.Wheelset(**made)
+                used.solve(y=-y, speed=2e4, load=8e4)
+                one, other = (w.solve(y=y, yaw=-2e-3, speed=2e4, load=8e4) for w in (used, fresh))
+                self.assertEqual(one.force.tolist(), other.force.tolist(), (made, y))
+                self.assertEqual(one.n_solutions, other.n_solutions)
+                self.assertEqual(used.save(), fresh.save())
+
     def test_bytes_that_are_not_those_of_a_wheelset_are_refused(self):
         package = self.import_package()
         wheelset = package.Wheelset()

@@ -196,6 +196,7 @@ contains
             call solve_loads(model, workspace, state, demand, result, status)
             if (is_error(status)) return
             workspace%has_last = .true.
+            workspace%last_state = state
             apart = result%wheel(side_right)%z - result%wheel(side_left)%z
             if (abs(apart) <= equilibrium*model%radius) return
             if (status%code == st_target_missed .and. abs(apart) <= equal_at_jump) return

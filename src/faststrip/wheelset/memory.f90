@@ -28,7 +28,7 @@ module faststrip_wheelset_memory
     ! Given: reads otherwise where the bytes of a number stand in another order.
     integer(int64), parameter :: order_mark = 72623859790382856_int64
     ! Given: number of the layout, of all that is exchanged.
-    integer(int64), parameter :: version = 3_int64
+    integer(int64), parameter :: version = 4_int64
     ! Given: numbers of a header, and that tell one wheelset from another.
     integer, parameter :: n_header = 4, n_marks = 9
 

@@ -67,9 +67,9 @@ contains
         call exchange(stream, newton%kept)
         if (.not. newton%kept) return
         call exchange(stream, newton%by_load)
-        call exchange(stream, newton%fixed)
         call exchange_count(stream, newton%n_patches, max_patches)
-        call exchange(stream, newton%n_strips)
+        call exchange(stream, newton%fixed(:2*newton%n_patches))
+        call exchange(stream, newton%n_strips(:newton%n_patches))
         n = 2*(sum(newton%n_strips(:newton%n_patches)) + newton%n_patches) + 1
         call exchange_count(stream, n, size(newton%pivot))
         call exchange(stream, newton%jacobian(:n, :n))
@@ -80,12 +80,14 @@ contains
         type(byte_stream_t), intent(inout) :: stream
         type(linearised_t), intent(inout) :: linear
 
+        integer :: first, last, p
+
         call exchange(stream, linear%known)
         if (.not. linear%known) return
         call exchange_count(stream, linear%n, linear%most)
         call exchange_count(stream, linear%n_patches, max_patches)
-        call exchange(stream, linear%n_strips)
-        call exchange(stream, linear%width)
+        call exchange(stream, linear%n_strips(:linear%n_patches))
+        call exchange(stream, linear%width(:linear%n_patches))
         associate (n => linear%n)
             call exchange(stream, linear%half_length(:n))
             call exchange(stream, linear%y(:n))
@@ -94,9 +96,16 @@ contains
             call exchange(stream, linear%tip(:n, :n))
             call exchange(stream, linear%tip_l(:n, :n))
             call exchange(stream, linear%tip_x(:n, :n))
-            if (linear%n_patches == 1) return
-            call exchange(stream, linear%center_y(:n, :n))
-            call exchange(stream, linear%tip_y(:n, :n))
+            ! Numbers of other patches.
+            last = 0
+            do p = 1, linear%n_patches
+                first = last + 1
+                last = min(last + max(linear%n_strips(p), 0), n)
+                call exchange(stream, linear%center_y(:first - 1, first:last))
+                call exchange(stream, linear%center_y(last + 1:n, first:last))
+                call exchange(stream, linear%tip_y(:first - 1, first:last))
+                call exchange(stream, linear%tip_y(last + 1:n, first:last))
+            end do
         end associate
     end subroutine exchange_linearised
 

@@ -235,6 +235,7 @@ contains
             end if
             last = last + n
         end do
+        workspace%n_graded(patches%n + 1:) = 0
     end subroutine grade_edges
 
     !> Forget where edges are: the next strips are cut anew.
