@@ -26,6 +26,9 @@ module faststrip_wheelset_wheel_places
     ! Tuned [1]: largest part of what is missed that a step takes. Origin: safeguard: most take 0.7
     ! to 1.3.
     real(wp), parameter :: most_part = 3.0_wp
+    ! Tuned [passes]: in which nothing comes nearer, before it is left: patches of which two are
+    ! about to meet swing. Origin: chosen: the swing goes on for ever, at 7 ms a pass.
+    integer, parameter :: most_idle = 4
 
 contains
 
@@ -99,14 +102,16 @@ contains
 
         character(len=*), parameter :: not_found = &
             'heights of strips that do not stand side by side do not converge'
-        real(wp) :: part, turn, tolerance
-        integer :: pass
+        real(wp) :: part, turn, tolerance, missed, least
+        integer :: pass, idle
 
         associate (n => gap%n, lower => gap%lower)
             lower(:n, 1) = 0.0_wp
             gap%tilt(:n, 1) = 0.0_wp
             gap%bend(:n, 1) = 0.0_wp
             part = 1.0_wp
+            least = huge(least)
+            idle = 0
             tolerance = case%strip_tolerance
             if (.not. case%stays) tolerance = places_share*tolerance
             if (case%warm_start .or. case%stays) then
@@ -124,7 +129,11 @@ contains
                 if (is_error(contact%status)) return
                 lower(:n, 4) = lower(:n, 2)
                 call find_miss()
-                if (maxval(abs(lower(:n, 2))) <= tolerance*gap%overlap) return
+                missed = maxval(abs(lower(:n, 2)))
+                if (missed <= tolerance*gap%overlap) return
+                idle = merge(0, idle + 1, missed < least)
+                least = min(least, missed)
+                if (idle > most_idle) exit
                 if (pass > 1) then
                     turn = sum((lower(:n, 2) - lower(:n, 4))**2)
                     if (turn > 0.0_wp) &
