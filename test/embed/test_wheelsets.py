@@ -476,6 +476,16 @@ class Interfaces(HostTest):
             next_one = {**states[-1], "y": y + 0.7}
             self.assertEqual(figures(again.solve(**next_one)), figures(wheelset.solve(**next_one)))
 
+    def test_a_search_that_leads_nowhere_is_left(self):
+        package = self.import_package()
+
+        # Strips of two patches that are about to meet swing, and the forces with them.
+        wheelset = package.Wheelset(estimate=False, mu=0.3)
+        with self.assertRaisesRegex(package.FaststripError, "no answer after 4[0-9]{4} steps"):
+            wheelset.solve(y=6.2687, yaw=-0.0247, speed=2e4, axle_load=109180.0)
+        # The next call has all steps again.
+        self.assertEqual(wheelset.solve(y=1.0, speed=2e4, axle_load=109180.0).word, "ok")
+
     def test_a_cold_call_does_not_know_of_those_before(self):
         package = self.import_package()
 

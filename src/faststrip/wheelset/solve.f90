@@ -36,6 +36,7 @@ contains
 
         type(environment_t) :: environment
 
+        workspace%wheel%steps = 0
         if (all(model%rail_stiffness == 0.0_wp)) then
             call solve_on_rails(model, workspace, state, demand, result, status)
             return

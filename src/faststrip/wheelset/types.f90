@@ -167,6 +167,7 @@ module faststrip_wheelset_types
         type(force_errors_t) :: ellipse_errors(most_contacts) !! of such an ellipse
         logical :: is_guided = .false.
             !! is a height being looked for by strips, for another method to take?
+        integer :: steps = 0 !! of the contacts' solver in this call
     end type wheel_workspace_t
 
     !> The last solutions for loads, and what changed between the last two.

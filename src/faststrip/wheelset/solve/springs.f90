@@ -55,6 +55,7 @@ contains
         solutions = result%wheel%solutions
         if (was_warm) then
             workspace%has_last = .false.
+            workspace%wheel%steps = 0
             call find_deflection(model, workspace, state, demand, most_deflections, result, status)
             solutions = solutions + result%wheel%solutions
         end if

@@ -34,11 +34,12 @@ contains
 
     !> A contact whose strips have places along x: first pressures, then the forces where they are.
     !> Auto tells as how many strips it is solved; elements of Kalker's methods have no such places.
-    subroutine solve_in_places(gap, workspace, case, contact)
+    subroutine solve_in_places(gap, workspace, case, contact, steps)
         type(frame_gap_t), intent(inout) :: gap         !! of the contact's frame
         type(workspace_t), intent(inout) :: workspace   !! that the gap is set in
         type(contact_case_t), intent(inout) :: case     !! its methods come back as they were
         type(wheel_contact_t), intent(inout) :: contact !! gets its figures and its status
+        integer, intent(inout) :: steps                 !! of the solver, goes on
 
         type(contact_methods_t) :: asked
         type(status_t) :: forces, chosen
@@ -50,6 +51,7 @@ contains
         is_auto = asked%normal == normal_auto
         if (is_auto) then
             call solve_contact(workspace, case, contact%figures, chosen)
+            steps = steps + max(1, contact%figures%normal%iterations)
             contact%status = chosen
             if (is_error(chosen) .or. .not. any(workspace%solved_by == [normal_strip, &
                                                                        normal_hertz])) return
@@ -60,7 +62,7 @@ contains
         case%methods%tangential = tangential_none
         if (gap%apart > 0.0_wp .and. case%methods%normal == normal_strip &
             .and. .not. case%smoothing > 0.0_wp) then
-            call solve_apart(gap, workspace, case, contact)
+            call solve_apart(gap, workspace, case, contact, steps)
             ! Their pressures lean to where the others leave the gap lower.
             associate (n => gap%n)
                 gap%ahead(:n) = gap%ahead(:n) - gap%apart*gap%skew(:n) &
@@ -69,6 +71,7 @@ contains
             if (is_auto .and. .not. is_error(contact%status)) contact%status = chosen
         else if (.not. is_auto) then
             call solve_contact(workspace, case, contact%figures, contact%status)
+            steps = steps + max(1, contact%figures%normal%iterations)
         end if
         case%warm_start = warm
         if (is_error(contact%status)) then
@@ -94,11 +97,12 @@ contains
 
     ! The pressures of strips that do not stand side by side: on a gap that follows of them, by
     ! steps of which each goes as far as the last two tell (Aitken).
-    subroutine solve_apart(gap, workspace, case, contact)
+    subroutine solve_apart(gap, workspace, case, contact, steps)
         type(frame_gap_t), intent(inout) :: gap
         type(workspace_t), intent(inout) :: workspace ! with strips, if it starts from them
         type(contact_case_t), intent(inout) :: case
         type(wheel_contact_t), intent(inout) :: contact
+        integer, intent(inout) :: steps
 
         character(len=*), parameter :: not_found = &
             'heights of strips that do not stand side by side do not converge'
@@ -126,6 +130,7 @@ contains
                                      contact%status, gap%inclination(:n), gap%tilt(:n, 3))
                 if (is_error(contact%status)) return
                 call solve_contact(workspace, case, contact%figures, contact%status)
+                steps = steps + max(1, contact%figures%normal%iterations)
                 if (is_error(contact%status)) return
                 lower(:n, 4) = lower(:n, 2)
                 call find_miss()
