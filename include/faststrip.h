@@ -726,7 +726,8 @@ int faststrip_wheelset_solve(faststrip_wheelset *wheelset, const faststrip_wheel
  * (rad), y_rate, z_rate (mm/s), roll_rate, yaw_rate, pitch_rate (rad/s); all other things stay,
  * also where the height was found for a load. A pitch rate that was left out stays that of pure
  * rolling. Zeros of a wheel that was not asked for or is in the air, and over the rates at rest
- * without a floor of the speed. Errors as faststrip_get_derivatives. */
+ * without a floor of the speed. Errors as faststrip_get_derivatives; with 108 those of the wheel
+ * whose patches come or go are NaN, those of the other one are there. */
 int faststrip_wheelset_get_derivatives(faststrip_wheelset *wheelset,
                                        double derivatives[2][6][9]);
 

@@ -269,14 +269,13 @@ def fetch(call: Any, function: Any, doubles: int, *first: int) -> list:
 
 
 def slopes(call: Any, function: Any, shape: Tuple[int, ...]) -> Array:
-    """Derivatives at the last solution; nan where contacts or patches come or go."""
-    found = np.empty(shape)
+    """Derivatives at the last solution; nan of a contact, or a wheel, where patches come or go."""
+    found = np.full(shape, np.nan)
     try:
         call(function, found.ctypes.data)
     except FaststripError as problem:
         if problem.status != NO_CONVERGENCE:
             raise
-        found[:] = np.nan
     return found
 
 

@@ -294,8 +294,8 @@ class WheelsetResult(Table):
     derivatives : ndarray of float, shape (2, 6, 9), or None
         Where they were asked for: of force and moment, x, y, z each, over y, z, roll, yaw and
         y_rate, z_rate, roll_rate, yaw_rate, pitch_rate, in N, N mm over mm, rad and per s; all
-        other things stay. Zeros in the air, and over the rates at rest; nan where contacts or
-        patches come or go.
+        other things stay. Zeros in the air, and over the rates at rest; nan of a wheel where
+        its contacts or patches come or go.
     """
 
     status: int

@@ -10,6 +10,7 @@
 !> of the table between its nodes: it is asked for each neighbour. Where it hands over to strips
 !> both are, also over the rates. Rails on springs follow the forces, at once.
 module faststrip_wheelset_derivatives
+    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
     use faststrip_base_kinds, only: wp
     use faststrip_base_status, only: status_t, set_status, clear_status, is_error, &
                                      st_bad_argument, st_no_convergence
@@ -54,13 +55,14 @@ contains
         type(wheelset_workspace_t), intent(inout) :: workspace     !! of the solution
         logical, intent(in) :: wants(2)                            !! which wheels: right, left
         type(wheelset_result_t), intent(in) :: result              !! of the solution
-        real(wp), intent(out) :: derivatives(6, 9, 2)              !! of right and left wheel; 0
-                                                                   !! where not asked for
+        real(wp), intent(out) :: derivatives(6, 9, 2)
+            !! of right and left wheel; 0 where not asked for, NaN where contacts come or go
         type(status_t), intent(out) :: status
             !! those of `check_differentiable`; `st_bad_argument`: no solution;
-            !! `st_no_convergence`: contacts or patches come or go at this state
+            !! `st_no_convergence`: contacts or patches of a wheel come or go at this state
 
         type(environment_t) :: environment
+        type(status_t) :: ended
         type(wheel_result_t), allocatable :: near(:)
         integer :: side
 
@@ -73,12 +75,16 @@ contains
         ! Much for a stack; nothing is allocated.
         call move_alloc(workspace%near, near)
         do side = side_right, side_left
-            if (.not. wants(side) .or. is_error(status)) cycle
+            if (.not. wants(side)) cycle
             if (result%wheel(side)%n == 0) cycle
+            call clear_status(ended)
             call find_of_wheel(model, workspace, side, result%wheel(side), near(1), &
-                               derivatives(:, :, side), status)
-            if (any(model%rail_stiffness > 0.0_wp)) &
-                call let_rail_follow(model%rail_stiffness, derivatives(:, :, side), status)
+                               derivatives(:, :, side), ended)
+            if (any(model%rail_stiffness > 0.0_wp) .and. .not. is_error(ended)) &
+                call let_rail_follow(model%rail_stiffness, derivatives(:, :, side), ended)
+            if (.not. is_error(ended)) cycle
+            derivatives(:, :, side) = ieee_value(0.0_wp, ieee_quiet_nan)
+            status = ended
         end do
         call move_alloc(near, workspace%near)
         call restore_environment(environment)
@@ -99,7 +105,6 @@ contains
             call find_spring_step(over_place(2:3, :), stiffness, derivatives(2:3, i), change, &
                                   singular)
             if (singular) then
-                derivatives = 0.0_wp
                 call set_status(status, st_no_convergence, 'rails on springs have no balance here')
                 return
             end if

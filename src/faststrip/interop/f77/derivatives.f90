@@ -1,7 +1,7 @@
 !> Derivatives in the F77 interface.
 module faststrip_interop_f77_derivatives
     use, intrinsic :: iso_c_binding, only: c_int, c_double
-    use faststrip_base_status, only: first_error
+    use faststrip_base_status, only: first_error, st_no_convergence
     use faststrip_interop_f77, only: n_iwork, number_of
     use faststrip_interop_handle, only: handle_t, find_handle, handle_derivatives
     use faststrip_interop_wheelset_handle, only: wheelset_handle_t, find_wheelset, &
@@ -38,7 +38,9 @@ contains
     !> yaw, their rates and the pitch rate, in its columns, at the last solution; right, left.
     subroutine fswdrv(iwork, d, info) bind(c, name='fswdrv_')
         integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
-        real(c_double), intent(inout) :: d(6, 9, 2)  !! N, N mm over mm, rad, 1/s; kept with errors
+        real(c_double), intent(inout) :: d(6, 9, 2)
+            !! N, N mm over mm, rad, 1/s; NaN of a wheel whose contacts come or go there (108), kept
+            !! with other errors
         integer(c_int), intent(out) :: info          !! status
 
         type(wheelset_handle_t), pointer :: handle
@@ -48,6 +50,6 @@ contains
         if (.not. associated(handle)) return
         call wheelset_derivatives(handle, found)
         info = handle%status%code
-        if (info < first_error) d = found
+        if (info < first_error .or. info == st_no_convergence) d = found
     end subroutine fswdrv
 end module faststrip_interop_f77_derivatives
