@@ -5,6 +5,7 @@
 !> long as they become fewer, then one at a time. The tips then ask for other lengths.
 module faststrip_normal_cells_balance
     use faststrip_base_kinds, only: wp, pi
+    use faststrip_base_limits, only: equal_within, most_steps
     use faststrip_influence_center_column, only: center_influence_column
     use faststrip_influence_tip, only: tip_influence_column
     use faststrip_normal_cells, only: cells_t, start_lengths
@@ -16,11 +17,9 @@ module faststrip_normal_cells_balance
 
     public :: balance_cells
 
-    ! Tuned [rounds]: of the active set at once without fewer infeasible cells; of all. Origin:
-    ! chosen against cycling; safeguard.
-    integer, parameter :: max_block_rounds = 3, max_rounds = 60
-    ! Tuned [1]: of the penetration: not an overlap. Origin: safeguard: above rounding.
-    real(wp), parameter :: open_gap = 4.0e3_wp*epsilon(1.0_wp)
+    ! Tuned [rounds]: of the active set at once without fewer infeasible cells. Origin: chosen
+    ! against cycling.
+    integer, parameter :: max_block_rounds = 3
     ! Tuned [1]: change of lengths that may be left. Origin: chosen: far below the errors of cells.
     real(wp), parameter :: length_tolerance = 1.0e-3_wp
     ! Tuned [1]: shortest cell over the longest. Origin: safeguard.
@@ -69,7 +68,7 @@ contains
         n = cells%n
         fewest = n + 1
         tries = 0
-        do rounds = 1, max_rounds
+        do rounds = 1, most_steps
             if (.not. any(cells%presses(:n))) &
                 cells%presses(minloc(cells%height(:n), dim=1)) = .true.
             call solve_pressing(cells, compliance, demand)
@@ -112,7 +111,7 @@ contains
                 if (cells%p0(k) > 0.0_wp) cycle
             else if (cells%depth - cells%height(k) &
                      - compliance*dot_product(cells%influence(k, :cells%n), cells%p0(:cells%n)) &
-                     <= open_gap*cells%depth) then
+                     <= equal_within*cells%depth) then
                 cycle
             end if
             infeasible = infeasible + 1

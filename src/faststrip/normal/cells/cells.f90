@@ -1,9 +1,10 @@
 !> Cells are strips whose edges stay where they are: ranges of y, each divided evenly.
 module faststrip_normal_cells
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: rounding
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
     use faststrip_normal_overlap, only: most_ranges
-    use faststrip_normal_strip_patches, only: fewest_strips_small_patch
+    use faststrip_normal_strip_patches, only: fewest_strips, fewest_strips_small_patch
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
     private
@@ -14,11 +15,6 @@ module faststrip_normal_cells
     !> Most cells.
     !> Tuned [cells]. Origin: cost: it rises with its cube.
     integer, parameter :: most_cells = 80
-    ! Tuned [1]. Origin: chosen: far below the error of a length.
-    real(wp), parameter :: same = 1.0e-6_wp      ! lengths that differ by less, relatively
-
-    ! Tuned [cells]. Origin: chosen.
-    integer, parameter :: range_cells = 3        ! across a range, or neighbours are joined
     ! Added before a number of cells is cut to an integer: widths of ranges often are as small
     ! integers to each other, and a half would leave the number to the rounding.
     ! Tuned [cells]. Origin: chosen: no ratio of small whole numbers.
@@ -81,7 +77,7 @@ contains
         integer :: k
 
         call keep_lengths(cells)
-        call join_nearest(cells, max(1, most/range_cells))
+        call join_nearest(cells, max(1, most/fewest_strips))
         call count_cells(cells, wanted, most)
         call cut_ranges(cells)
         do k = 1, cells%n
@@ -118,7 +114,7 @@ contains
         associate (from => cells%y_from, to => cells%y_to, m => cells%n_ranges)
             do while (m > most)
                 ! All that are as near to each other, or the order would count.
-                nearest = (1.0_wp + same)*minval(from(2:m) - to(:m - 1))
+                nearest = (1.0_wp + rounding)*minval(from(2:m) - to(:m - 1))
                 n = 1
                 do r = 2, m
                     if (from(r) - to(r - 1) > nearest) then

@@ -14,7 +14,7 @@
 !> Which strips there are stays fixed: strips that leave are marked, and the caller decides.
 module faststrip_normal_strip_converge
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: beyond_all
+    use faststrip_base_limits, only: beyond_all, largest_ratio, most_steps
     use faststrip_numerics_lu, only: lu_solve
     use faststrip_normal_strip_equations, only: count_step, count_evaluation, mark_leaving_strips
     use faststrip_normal_strip_linearised, only: linearise_coefficients, is_linear_of, &
@@ -42,9 +42,9 @@ module faststrip_normal_strip_converge
     ! Tuned [1]: the same where they were looked at near the solution, over it. Origin: chosen for
     ! the time: mostly they move by less.
     real(wp), parameter :: after_look = 5.0_wp
-    ! Tuned [steps; evaluations; factors]: most of each. Origin: safeguards: some ten, three and two
-    ! do; three evaluations more than those with which edges follow the gap.
-    integer, parameter :: max_steps = 60, max_evaluations = 11, max_factorings = 25
+    ! Tuned [evaluations; factors]: most of each. Origin: safeguards: some three and two do; three
+    ! evaluations more than those with which edges follow the gap.
+    integer, parameter :: max_evaluations = 11, max_factorings = 25
     ! Tuned [evaluations]: after so many edges follow the gap no longer. Origin: two or three do;
     ! with six pmax of shift 4.7 of the paper is uneven over the load by 3e-4.
     integer, parameter :: most_renewals = 8
@@ -57,10 +57,9 @@ module faststrip_normal_strip_converge
     ! Tuned [1]: the same of several patches, whose distances change. Origin: measured: .7.
     real(wp), parameter :: second_order_apart = 1.0_wp
     ! Tuned [1]: length of a strip over its width from which on a change counts as one of the width,
-    ! for near tips coefficients change over that; and to which, for such changes are rounding.
-    ! Origin: measured: tips of hostile gaps close to 1e-5 to 1e-4, from 10 to 40 as many gaps are
-    ! `ok`; needles of up to 1e12 widths converge.
-    real(wp), parameter :: slender = 20.0_wp, most_slender = 1.0e6_wp
+    ! for near tips coefficients change over that. Origin: measured: tips of hostile gaps close to
+    ! 1e-5 to 1e-4, from 10 to 40 as many gaps are `ok`.
+    real(wp), parameter :: slender = 20.0_wp
     ! Tuned [1]: the steps' tolerance over that asked for, or over the square of what has changed:
     ! coefficients are evaluated anew then. Origin: chosen: steps cost little.
     real(wp), parameter :: finest = 0.3_wp
@@ -125,7 +124,7 @@ contains
         course%m = 2*workspace%strips%n + 1 + n_ends
         course%again = .not. is_linear_of(workspace%linear, patches)
         course%second = second_of(workspace%strips, patches%n)
-        do trial = 1, max_steps
+        do trial = 1, most_steps
             outcome = not_converged
             call evaluate(workspace, trial, patches, course, cost, possible)
             if (.not. possible) return
@@ -303,11 +302,11 @@ contains
         type(pass_strips_t), intent(in) :: strips
         integer, intent(in) :: n_patches
 
-        real(wp) :: slimmest ! length over width
+        real(wp) :: slimmest ! length over width; beyond the largest ratio changes are rounding
 
         associate (n => strips%n)
-            slimmest = min(most_slender, maxval(strips%half_length(:n) &
-                                                /(strips%y_right(:n) - strips%y_left(:n))))
+            slimmest = min(largest_ratio, maxval(strips%half_length(:n) &
+                                                 /(strips%y_right(:n) - strips%y_left(:n))))
         end associate
         second_of = max(merge(second_order, second_order_apart, n_patches == 1), &
                         second_order*(slimmest/slender)**2)

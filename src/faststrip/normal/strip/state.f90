@@ -1,6 +1,7 @@
 !> What a strip solution works on: the gap, the strips of the pass, and what the last pass left.
 module faststrip_normal_strip_state
     use faststrip_base_kinds, only: wp
+    use faststrip_base_limits, only: smallest_size
     use faststrip_base_status, only: status_t, set_status, is_error, count_text, st_bad_argument
     use faststrip_numerics_reversal, only: reverse, reverse_negated
     use faststrip_geometry_gap, only: gap_t
@@ -20,8 +21,7 @@ module faststrip_normal_strip_state
     public :: forget_edges, forget_factors, look_for_edges, renew_edges
 
     !> Smallest A = 1/(2R) used, 1/mm: a cylinder along x has no finite patch.
-    !> Tuned [1/mm]. Origin: safeguard.
-    real(wp), parameter :: flattest = 1.0e-30_wp
+    real(wp), parameter :: flattest = smallest_size
     ! Tuned [half-widths]: place in an old patch from which a strip beside it is started. Origin:
     ! chosen: pressures vanish at 1.
     real(wp), parameter :: outermost = 0.95_wp
