@@ -8,7 +8,7 @@ module faststrip_normal_overlap
     implicit none
     private
 
-    public :: overlap_t, most_ranges, find_overlaps, overlap_outside
+    public :: overlap_t, most_at_once, find_overlaps, overlap_outside
     public :: overlap_tolerance, named_overlap
 
     !> Overlaps that are left, over the penetration: of cells as of strips.
@@ -18,11 +18,10 @@ module faststrip_normal_overlap
     !> Tuned [1]. Origin: chosen.
     real(wp), parameter :: named_overlap = 0.01_wp
 
-    ! Tuned [points]. Origin: capacity.
-    integer, parameter :: max_scan = 64 ! points scanned in one stretch outside the patches
-    !> Most ranges of y that press, and most that overlap, at a time.
-    !> Tuned [ranges]. Origin: capacity.
-    integer, parameter :: most_ranges = 64
+    !> Most ranges of y that press, and most that overlap, points scanned in one stretch outside the
+    !> patches, and strips whose samples are taken, at a time.
+    !> Tuned [ranges; points; strips]. Origin: capacity, on the stack.
+    integer, parameter :: most_at_once = 64
 
     ! Tuned [strip widths]: Places beside an end, in widths of its strip. Origin: chosen.
     real(wp), parameter :: beside(6) = [0.5_wp, 0.7_wp, 0.9_wp, 1.2_wp, 1.6_wp, 2.2_wp]
@@ -51,7 +50,7 @@ contains
         real(wp), intent(in) :: width                 !! of a strip: two places are looked at in it
         type(overlap_t), intent(out) :: found(:)      !! those found, then ones of no depth
 
-        real(wp) :: y_from(most_ranges), y_to(most_ranges), low
+        real(wp) :: y_from(most_at_once), y_to(most_at_once), low
         integer :: i, m, n, p
 
         n = 0
@@ -77,12 +76,12 @@ contains
             type(overlap_t), intent(inout) :: found(:)
             integer, intent(inout) :: n ! how many so far
 
-            real(wp) :: dy, deep(max_scan)
+            real(wp) :: dy, deep(most_at_once)
             integer :: k, j, places
             logical :: is_deep, was_deep
 
             ! A quarter less: a stretch often is a whole number of cells, and rounding would count.
-            places = max(2, min(max_scan, ceiling(2.0_wp*(high - low)/width - 0.25_wp)))
+            places = max(2, min(most_at_once, ceiling(2.0_wp*(high - low)/width - 0.25_wp)))
             dy = (high - low)/places
             deep(:places) = 0.0_wp
             was_deep = way /= 0
@@ -190,9 +189,9 @@ contains
         type(gap_curve_t), intent(in) :: curve !! a gap that was set
         real(wp), intent(in) :: y  !! place, mm
         real(wp), intent(in) :: dy !! from place to place, negative to the left, mm
-        integer, intent(in) :: n   !! places to come, at most `max_scan`
+        integer, intent(in) :: n   !! places to come, at most `most_at_once`
 
-        real(wp) :: at(0:max_scan), slope(0:max_scan)
+        real(wp) :: at(0:most_at_once), slope(0:most_at_once)
         integer :: j
 
         do j = 0, n

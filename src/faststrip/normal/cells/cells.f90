@@ -3,7 +3,7 @@ module faststrip_normal_cells
     use faststrip_base_kinds, only: wp
     use faststrip_base_limits, only: rounding
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
-    use faststrip_normal_overlap, only: most_ranges
+    use faststrip_normal_overlap, only: most_at_once
     use faststrip_normal_strip_patches, only: fewest_strips, fewest_strips_small_patch
     use faststrip_normal_strips, only: contact_strips_t
     implicit none
@@ -32,8 +32,8 @@ module faststrip_normal_cells
         integer :: n_ranges = 0 !! ranges of y, each divided into even cells
         real(wp) :: depth = 0.0_wp !! penetration above the lowest height that closes the gap, mm
         logical :: solved = .false. !! are there pressures?
-        real(wp) :: y_from(most_ranges) = 0.0_wp, y_to(most_ranges) = 0.0_wp !! their ends, mm
-        integer :: number(most_ranges) = 0 !! of cells in each
+        real(wp) :: y_from(most_at_once) = 0.0_wp, y_to(most_at_once) = 0.0_wp !! their ends, mm
+        integer :: number(most_at_once) = 0 !! of cells in each
         real(wp), allocatable :: y_left(:), y_right(:), y(:) !! edges and middles of the cells, mm
         real(wp), allocatable :: height(:)      !! gap above its lowest place, mm
         real(wp), allocatable :: inv2r(:)       !! A = 1/(2R), 1/mm

@@ -4,7 +4,7 @@ module faststrip_normal_cells_ranges
     use faststrip_base_kinds, only: wp
     use faststrip_geometry_gap_curve, only: gap_curve_t, level_intervals
     use faststrip_normal_cells, only: cells_t, next_run
-    use faststrip_normal_overlap, only: overlap_t, most_ranges, find_overlaps
+    use faststrip_normal_overlap, only: overlap_t, most_at_once, find_overlaps
     implicit none
     private
 
@@ -16,7 +16,7 @@ module faststrip_normal_cells_ranges
     !> Ranges of y: patches, and overlaps between them.
     type :: ranges_t
         integer :: n = 0 !! how many
-        real(wp) :: from(2*most_ranges) = 0.0_wp, to(2*most_ranges) = 0.0_wp !! ends, mm
+        real(wp) :: from(2*most_at_once) = 0.0_wp, to(2*most_at_once) = 0.0_wp !! ends, mm
     end type ranges_t
 
 contains
@@ -33,7 +33,7 @@ contains
 
         level = curve%h_lowest + depth
         call level_intervals(curve, level, cells%y_from, cells%y_to, n)
-        if (n == most_ranges) then
+        if (n == most_at_once) then
             do j = curve%n_pieces + 1, 2, -1
                 if (curve%h_node(j) < level) exit
             end do
@@ -55,8 +55,8 @@ contains
             !! does nothing overlap, does no patch end with its range, and do most cells press?
 
         type(ranges_t) :: ranges
-        type(overlap_t) :: overlaps(most_ranges)
-        real(wp) :: wider(2, most_ranges) ! by which patches are to grow, mm
+        type(overlap_t) :: overlaps(most_at_once)
+        real(wp) :: wider(2, most_at_once) ! by which patches are to grow, mm
         integer :: i, m
 
         call take_patches(cells, curve, grow, ranges, wider, at_rest)
@@ -97,7 +97,7 @@ contains
 
         at_rest = .true.
         last = 0
-        do while (ranges%n < most_ranges)
+        do while (ranges%n < most_at_once)
             call next_run(cells, first, last)
             if (first > cells%n) exit
             cut_left = first == 1
@@ -146,7 +146,7 @@ contains
         do k = 1, ranges%n
             last = cells%n_ranges
             if (last > 0) then
-                if (ranges%from(k) - cells%y_to(last) < finest .or. last == most_ranges) then
+                if (ranges%from(k) - cells%y_to(last) < finest .or. last == most_at_once) then
                     cells%y_to(last) = max(cells%y_to(last), ranges%to(k))
                     cycle
                 end if

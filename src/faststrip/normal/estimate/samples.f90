@@ -5,6 +5,7 @@ module faststrip_normal_estimate_samples
     use faststrip_geometry_gap_curve, only: gap_curve_t, gap_at
     use faststrip_influence_center_column, only: center_influence_column
     use faststrip_influence_tip, only: tip_influence_column
+    use faststrip_normal_overlap, only: most_at_once
     use faststrip_normal_strips, only: contact_strips_t
     use faststrip_normal_strip_state, only: flattest
     implicit none
@@ -13,8 +14,7 @@ module faststrip_normal_estimate_samples
     public :: block, most_samples, sample, usable, part_end
 
     !> Strips looked at together.
-    !> Tuned [strips]. Origin: capacity, on the stack.
-    integer, parameter :: block = 64
+    integer, parameter :: block = most_at_once
     !> Most points sampled together: both edges of each strip of a block.
     !> Given: of one strip at most.
     integer, parameter :: most_samples = 2*block

@@ -3,7 +3,7 @@
 module faststrip_normal_strip_ends
     use faststrip_base_kinds, only: wp, pi
     use faststrip_geometry_gap_curve, only: gap_at
-    use faststrip_normal_overlap, only: overlap_t, most_ranges, find_overlaps
+    use faststrip_normal_overlap, only: overlap_t, most_at_once, find_overlaps
     use faststrip_normal_strip_patches, only: patch_t, patches_t, max_patches, fewest_strips, &
                                               take_in, sort_patches, join_met_patches
     use faststrip_normal_strip_state, only: strip_workspace_t, flattest
@@ -153,7 +153,7 @@ contains
         type(patches_t), intent(inout) :: patches
         logical, intent(out) :: changed
 
-        type(overlap_t) :: overlaps(most_ranges)
+        type(overlap_t) :: overlaps(most_at_once)
         type(patch_t) :: seed
         real(wp) :: from(max_patches), to(max_patches), h, inv2r, width
         integer :: i, n
@@ -171,7 +171,7 @@ contains
                                strips%y_right(:n), strips%p0(:n), strips%half_length(:n), &
                                from(:patches%n), to(:patches%n), width, overlaps)
         end associate
-        do i = 1, most_ranges
+        do i = 1, most_at_once
             associate (one => overlaps(i))
                 if (one%deepest <= 0.0_wp) exit
                 seed = patch_t(one%from, one%to, fewest_strips)
