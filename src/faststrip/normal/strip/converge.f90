@@ -52,10 +52,9 @@ module faststrip_normal_strip_converge
     ! follow the ends alone succeed more often.
     real(wp), parameter :: close = 0.1_wp
     ! Tuned [1]: Error of a solution by linearised coefficients over the square of what has
-    ! changed. Origin: measured: .01 in the median, .02 to .1 in 95 %.
+    ! changed, in one patch. Origin: measured: .01 in the median, .02 to .1 in 95 %. Of several,
+    ! whose distances change, .7 was measured: 1.
     real(wp), parameter :: second_order = 0.05_wp
-    ! Tuned [1]: the same of several patches, whose distances change. Origin: measured: .7.
-    real(wp), parameter :: second_order_apart = 1.0_wp
     ! Tuned [1]: length of a strip over its width from which on a change counts as one of the width,
     ! for near tips coefficients change over that. Origin: measured: tips of hostile gaps close to
     ! 1e-5 to 1e-4, from 10 to 40 as many gaps are `ok`.
@@ -67,9 +66,9 @@ module faststrip_normal_strip_converge
     ! allow. Origin: chosen: they serve from there to the last digit; with .2 loads that are
     ! searched for miss by 1e-10.
     real(wp), parameter :: near = 0.05_wp
-    ! Tuned [1]: change from which coefficients are not trusted; the same with ends held. Origin:
-    ! convergence of hostile gaps: with .2 ends held 14 of 888 fewer are `ok`.
-    real(wp), parameter :: trusted = 0.5_wp, trusted_held = 0.06_wp
+    ! Tuned [1]: change from which coefficients are not trusted with ends held. Origin: convergence
+    ! of hostile gaps: with .2 14 of 888 fewer are `ok`.
+    real(wp), parameter :: trusted_held = 0.06_wp
     ! Tuned [1]. Origin: chosen for the time: factors cost some steps; with .25 warm ones take less,
     ! cold ones more.
     real(wp), parameter :: slow = 0.35_wp ! steps that shrink less ask for new factors
@@ -77,7 +76,7 @@ module faststrip_normal_strip_converge
     real(wp), parameter :: least_scale = 0.05_wp
     ! Tuned [1]: Largest steps of the logarithm of a length, of the penetration over itself, and,
     ! where ends move, of an end over half the width of its patch and of what a strip loses of its
-    ! pressure. Origin: convergence from afar.
+    ! pressure; coefficients are not trusted for more. Origin: convergence from afar.
     real(wp), parameter :: most_change = 0.5_wp
 
     !> Where Newton's method stands.
@@ -160,7 +159,7 @@ contains
         possible = .true.
         if (.not. course%again) then
             course%again = linear_change(workspace%linear, workspace%strips) &
-                           > merge(trusted_held, trusted, course%held)
+                           > merge(trusted_held, most_change, course%held)
             if (.not. course%again) return
             ! Factors of coefficients that have changed so much do not serve any more: steps by
             ! them go back and forth.
@@ -308,7 +307,7 @@ contains
             slimmest = min(largest_ratio, maxval(strips%half_length(:n) &
                                                  /(strips%y_right(:n) - strips%y_left(:n))))
         end associate
-        second_of = max(merge(second_order, second_order_apart, n_patches == 1), &
+        second_of = max(merge(second_order, 1.0_wp, n_patches == 1), &
                         second_order*(slimmest/slender)**2)
     end function second_of
 

@@ -32,18 +32,14 @@ module faststrip_normal_strip_levels
     integer, parameter :: strips_auto = 0
     integer, parameter :: strips_auto_most = 81
 
-    ! Tuned [strips]: more than these are reached by way of these. Origin: chosen for the time of a
-    ! cold start; 31 at once converge in fewer rough gaps.
-    integer, parameter :: first_level = 15
     ! Tuned [1]: strips of a level, less one, over those of the one before, at most. Origin:
     ! convergence: 41 strips from 15 are too far where A jumps.
     integer, parameter :: level_factor = 2
     ! Tuned [levels]: Most levels. Origin: safeguard: more than level_factor needs for any number.
     integer, parameter :: most_levels = 12
-    ! Tuned [strips]: Numbers of strips tried. Origin: chosen: each about 1.6 times the last.
-    integer, parameter :: auto_levels(5) = [15, 27, 41, 61, strips_auto_most]
-    ! Tuned [strips]. Origin: chosen.
-    integer, parameter :: auto_enough = 41 ! for a solution that is resolved
+    ! Tuned [strips]: Numbers of strips tried. Origin: chosen: each about 1.6 times the last. A
+    ! solution that is resolved has enough by the middle one.
+    integer, parameter :: auto_levels(5) = [usual_strips, 27, 41, 61, strips_auto_most]
     ! Tuned [1]. Origin: accuracy wanted: half a percent and a tenth.
     real(wp), parameter :: auto_pmax = 5.0e-3_wp, auto_penetration = 1.0e-3_wp ! estimated errors
 
@@ -224,7 +220,7 @@ contains
         is_enough = .not. is_error(status) &
                     .and. max(errors%est_err_penetration, errors%est_err_pmax, &
                               errors%est_err_area) <= limit
-        if (result%strips_across >= auto_enough) return
+        if (result%strips_across >= auto_levels(3)) return
         is_enough = is_enough .and. errors%est_err_pmax <= auto_pmax &
                     .and. errors%est_err_penetration <= auto_penetration
     end function is_enough
@@ -243,7 +239,8 @@ contains
         end if
         strips = max(strips_per_patch, fewest_strips)
         plan%n = 1
-        plan%strips(1) = min(strips, first_level)
+        ! More at once take longer from nothing, and converge in fewer rough gaps.
+        plan%strips(1) = min(strips, usual_strips)
         do while (plan%strips(plan%n) < strips .and. plan%n < most_levels)
             plan%n = plan%n + 1
             plan%strips(plan%n) = min(strips, level_factor*plan%strips(plan%n - 1) + 1)

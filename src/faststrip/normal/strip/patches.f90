@@ -14,16 +14,12 @@ module faststrip_normal_strip_patches
     !> Most patches a contact may have at a time.
     !> Tuned [patches]. Origin: capacity.
     integer, parameter :: max_patches = 16
-    !> Fewest strips a patch can be cut into: its ends are extrapolated from three.
-    !> Tuned [strips]. Origin: a parabola through three.
+    !> Fewest strips a patch can be cut into.
+    !> Given: its ends are extrapolated by a parabola through three.
     integer, parameter :: fewest_strips = 3
     !> A second patch gets fewer strips than the largest, in proportion to its width, but these.
     !> Tuned [strips]. Origin: chosen for the errors of small patches.
     integer, parameter :: fewest_strips_small_patch = 9
-
-    ! Tuned [spacings]: width of an overlap from which it moves the end of the patch it touches.
-    ! Origin: chosen: more than one place.
-    real(wp), parameter :: wide_seed = 1.5_wp
 
     !> One patch while its ends are sought.
     type :: patch_t
@@ -143,14 +139,16 @@ contains
         logical, intent(inout) :: changed    !! set if there is anything to solve anew
 
         integer :: p
-        logical :: touches
+        logical :: touches, is_wide
 
         touches = .false.
+        ! Of more than one place: it moves the end of the patch it touches.
+        is_wide = nint((seed%y_to - seed%y_from)/dy) > 1
         do p = 1, patches%n
             if (seed%y_from < low + 0.5_wp*dy .and. patches%at(p)%y_from < low &
                 .and. patches%at(p)%y_to > low - dy .and. patches%at(p)%y_to < seed%y_to) then
                 touches = .true.
-                if (seed%y_to - seed%y_from > wide_seed*dy) then
+                if (is_wide) then
                     patches%at(p)%y_to = seed%y_to
                     changed = .true.
                 end if
@@ -158,7 +156,7 @@ contains
                      .and. patches%at(p)%y_from < high + dy &
                      .and. patches%at(p)%y_from > seed%y_from) then
                 touches = .true.
-                if (seed%y_to - seed%y_from > wide_seed*dy) then
+                if (is_wide) then
                     patches%at(p)%y_from = seed%y_from
                     changed = .true.
                 end if
