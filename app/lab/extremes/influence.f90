@@ -199,7 +199,8 @@ contains
                 call put('closed', strip_influence_at(places(j), cl, cr))
                 call strip_influence_gradient(places(j), 1.0_wp, cl, cr, value, d_x, d_half_length)
                 call put('gradient', value)
-                call influence_column_gradient(1.0_wp, cl, cr, places(j:j), [0.0_wp], column, d_xs, d_halfs)
+                call influence_column_gradient(1.0_wp, cl, cr, places(j:j), [0.0_wp], &
+                                               column, d_xs, d_halfs)
                 call put('column', column(1))
                 call quadrature_influence(n, b, places(j), value, abs_error, status)
                 call put('gsl', value)

@@ -39,7 +39,8 @@ module faststrip_wheelset_wheel
     ! the load (3e-8 with 1e-10, 4e-7 with 5e-9).
     real(wp), parameter :: strip_tolerance = 2.0e-9_wp
     ! Tuned [steps]: of the solver for the contacts of one wheel in one call. Origin: measured: of
-    ! 4,200 calls those that ended well took up to 15,000; one that does not end takes 0.1 ms a step.
+    ! 4,200 calls those that ended well took up to 15,000; one that does not end takes 0.1 ms
+    ! a step.
     integer, parameter :: most_solver_steps = 40000
     ! Tuned [1]: how high gaps of neighbours are sampled, over the overlap. Origin: patches end
     ! below the overlap.

@@ -39,8 +39,7 @@ contains
     subroutine fswdrv(iwork, d, info) bind(c, name='fswdrv_')
         integer(c_int), intent(in) :: iwork(n_iwork) !! made by FSWNEW
         real(c_double), intent(inout) :: d(6, 9, 2)
-            !! N, N mm over mm, rad, 1/s; NaN of a wheel whose contacts come or go there (108), kept
-            !! with other errors
+            !! N, N mm over mm, rad, 1/s; NaN of a wheel with 108, kept with other errors
         integer(c_int), intent(out) :: info          !! status
 
         type(wheelset_handle_t), pointer :: handle

@@ -18,8 +18,8 @@ module faststrip_wheelset_solve_axle_moment
 
     public :: solve_on_rails
 
-    ! Tuned [1]: of a moment about the axle, over mu N r: it is found. Origin: chosen: the pitch rate
-    ! to 1e-6 up to .999 of it.
+    ! Tuned [1]: of a moment about the axle, over mu N r: it is found. Origin: chosen: the pitch
+    ! rate to 1e-6 up to .999 of it.
     real(wp), parameter :: near_moment = 1.0e-6_wp
     ! Tuned [1]: a quarter of the longest first step of slip. Origin: chosen: half of saturation.
     real(wp), parameter :: first_slip = 5.0e-4_wp
