@@ -13,7 +13,7 @@ module faststrip_lab_extremes_influence
     use faststrip_tables_quadrature, only: quadrature_influence
     use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
                                       refit_row
-    use faststrip_influence_center_column, only: center_influence_column
+    use faststrip_influence_equal_column, only: influence_column
     use faststrip_influence_offcentre_column, only: influence_column_gradient
     use faststrip_tables_polynomials, only: basis_chebyshev, polynomial_value
     use faststrip_lab_grid_cases, only: read_rows
@@ -142,7 +142,7 @@ contains
         type(row_t) :: row
         integer :: i, n
 
-        call center_influence_column(1.0_wp, -b, b, [(2*n*b, n=0, table_last_distance)], column)
+        call influence_column(b, column)
         do i = 1, size(distances), merge(3, 1, quick)
             n = distances(i)
             call exact_influence(0.0_wp, (2*n - 1)*real(b, qp), (2*n + 1)*real(b, qp), exact, &

@@ -16,7 +16,7 @@ module faststrip_lab_studies_integral
     use faststrip_tables_quadrature, only: quadrature_influence, quadrature_influence_2d
     use faststrip_tables_refit, only: refit_t, refit_plan_t, table_row_t, prepare_refit, &
                                       refit_row, fit_lsq
-    use faststrip_influence_center_column, only: center_influence_column
+    use faststrip_influence_equal_column, only: influence_column
     use faststrip_lab_studies_exact_influence, only: exact_influence, qp
     use faststrip_lab_studies_polynomials, only: power_of_ten_influence, power_of_ten_row
     use faststrip_command_program_clock, only: median, spread_of
@@ -218,7 +218,7 @@ contains
 
         integer, parameter :: passes = 5
         integer(int64) :: start
-        integer :: i, n, pass, degree
+        integer :: i, pass, degree
 
         degree = 0
         if (method <= n_tables) degree = size(tables(method)%c, 2) - 1
@@ -226,8 +226,7 @@ contains
         do pass = 1, passes
             do i = 1, n_arguments
                 if (method == closed) then
-                    call center_influence_column(1.0_wp, -b(i), b(i), &
-                                                 [(2*n*b(i), n=0, last)], values(:, i))
+                    call influence_column(b(i), values(:, i))
                 else
                     call power_of_ten_row(last + 1, degree, tables(method)%c, b(i), values(:, i))
                 end if

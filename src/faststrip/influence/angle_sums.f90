@@ -15,12 +15,12 @@
 !> the residues of the integral's Mellin transform.
 module faststrip_influence_angle_sums
     use faststrip_base_kinds, only: wp, pi
-    use faststrip_base_limits, only: beyond_all
     use faststrip_influence_angle_rules, only: fine, coarse, column_size, column_limit, &
                                                column_node
     use faststrip_influence_closed_coefficients, only: atanh_column, column_last
     use faststrip_influence_four_lanes, only: lanes_for, column_t, off_center_lanes
     use faststrip_influence_offcentre_rules, only: for_gradient
+    use faststrip_influence_plain_sizes, only: largest_plain
     implicit none
     private
 
@@ -77,7 +77,7 @@ contains
         by = lanes_for(portable)
         found = -1
         if (by > 0) then
-            call off_center_lanes(column_t(by, size(y), beyond_all, half_length, y_left, &
+            call off_center_lanes(column_t(by, size(y), largest_plain, half_length, y_left, &
                                            y_right), x, y, column_size, table(1, accuracy), &
                                   column_node(1, accuracy, 1), value, d_x, d_half_length, found)
         end if

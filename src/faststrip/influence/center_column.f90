@@ -4,10 +4,10 @@
 !> plain numbers go to the scalar procedures.
 module faststrip_influence_center_column
     use faststrip_base_kinds, only: wp
-    use faststrip_base_limits, only: beyond_all
     use faststrip_influence_closed_coefficients, only: a_small, b_small, r_large, r_centre
     use faststrip_influence_four_lanes, only: lanes_for, column_t, center_lanes
     use faststrip_influence_offcentre, only: strip_influence_gradient
+    use faststrip_influence_plain_sizes, only: largest_plain
     implicit none
     private
 
@@ -45,7 +45,7 @@ contains
         by = lanes_for(portable)
         found = -1
         if (by > 0) then
-            call center_lanes(column_t(by, size(y), beyond_all, half_length, y_left, y_right), &
+            call center_lanes(column_t(by, size(y), largest_plain, half_length, y_left, y_right), &
                               y, small, large, r_centre, value, found=found)
         end if
         if (found < 1) call find_missing(found, half_length, y_left, y_right, y, value)
@@ -68,7 +68,7 @@ contains
         by = lanes_for(portable)
         found = -1
         if (by > 0) then
-            call center_lanes(column_t(by, size(y), beyond_all, half_length, y_left, y_right), &
+            call center_lanes(column_t(by, size(y), largest_plain, half_length, y_left, y_right), &
                               y, small, large, r_centre, value, d_half_length, found)
         end if
         if (found < 1) call find_missing(found, half_length, y_left, y_right, y, value, &

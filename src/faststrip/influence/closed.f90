@@ -26,30 +26,31 @@ module faststrip_influence_closed
 
     public :: influence_primitive, strip_influence
     public :: strip_influence_edges, strip_influence_center_gradient
+    public :: c_small, c_large, c_near, c_far, table_end
 
-    ! Largest c of the form for small c, in half-lengths: as far as its polynomials were fitted.
-    ! Given: the range its polynomials were fitted on.
+    !> Largest c of the form for small c, in half-lengths: as far as its polynomials were fitted.
+    !> Given: the range its polynomials were fitted on.
     real(wp), parameter :: c_small = 1.0_wp
-    ! Least c of the form for large c: as far as its polynomial was fitted. The two forms overlap
-    ! for strips with an edge on either side of 1.
-    ! Given: the range its polynomial was fitted on.
+    !> Least c of the form for large c: as far as its polynomial was fitted. The two forms overlap
+    !> for strips with an edge on either side of 1.
+    !> Given: the range its polynomial was fitted on.
     real(wp), parameter :: c_large = 0.7_wp
     ! Where both forms serve a difference is taken apart here.
     ! Tuned [half-lengths]. Origin: sqrt(c_large c_small), rounded; errors stay below 6e-16 at any
     ! place from c_large to c_small. Half and double lie outside, where one of the forms is wrong.
     real(wp), parameter :: c_middle = 0.84_wp
-    ! Largest c of the short form for small c, 0.6.
+    !> Largest c of the short form for small c, 0.6.
     real(wp), parameter :: c_near = sqrt(short_last)
-    ! Least c of the short form for large c, 5/3 and a rounding.
-    ! Given: follows from c_near.
+    !> Least c of the short form for large c, 5/3 and a rounding.
+    !> Given: follows from c_near.
     real(wp), parameter :: c_far = 1.0_wp/c_near + 1.0e-12_wp
     ! Given: ln 4.
     real(wp), parameter :: log_4 = 1.386294361119890618834464242916353136_wp
 
     integer :: k_
-    ! The largest n of the tables of logarithms: beyond, few terms in powers of 1/(4n^2) serve.
-    ! Tuned [strips]. Origin: chosen: as many as a patch seldom has; from 16 on five powers are
-    ! exact.
+    !> The largest n of the tables of logarithms: beyond, few terms in powers of 1/(4n^2) serve.
+    !> Tuned [strips]. Origin: chosen: as many as a patch seldom has; from 16 on five powers are
+    !> exact.
     integer, parameter :: table_end = 64
     ! 2n atanh(1/(2n)), and the coefficients of its powers.
     real(wp), parameter :: distance_table(table_end) = &

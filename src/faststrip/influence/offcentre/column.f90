@@ -7,6 +7,7 @@ module faststrip_influence_offcentre_column
     use faststrip_influence_angle_rules, only: fine
     use faststrip_influence_angle_sums, only: angle_column
     use faststrip_influence_offcentre, only: strip_influence_gradient
+    use faststrip_influence_plain_sizes, only: is_plain
     implicit none
     private
 
