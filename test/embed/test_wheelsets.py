@@ -476,6 +476,15 @@ class Interfaces(HostTest):
             next_one = {**states[-1], "y": y + 0.7}
             self.assertEqual(figures(again.solve(**next_one)), figures(wheelset.solve(**next_one)))
 
+    def test_loads_on_springs_are_found_to_the_digits_of_the_balance(self):
+        package = self.import_package()
+
+        wheelset = package.Wheelset(estimate=False, rail_stiffness=(5e3, 3e4))
+        result = wheelset.solve(y=2.5268826567149123, yaw=-0.004169085984516727, speed=2e4,
+                                roll=0.0, load=(24480.064984886747,) * 2)
+        self.assertEqual(result.word, "ok")
+        np.testing.assert_allclose(result.force[:, 2], 24480.064984886747, rtol=2e-8)
+
     def test_derivatives_of_the_other_wheel_are_there(self):
         package = self.import_package()
 

@@ -81,7 +81,7 @@ contains
 
         type(approach_search_t) :: search
         type(wheel_sums_t) :: sums
-        real(wp) :: touch, load, share, height
+        real(wp) :: touch, load, share, height, tolerance
         logical :: is_warm
 
         share = 0.0_wp
@@ -106,11 +106,13 @@ contains
         is_warm = workspace%has_last .and. workspace%wheel(side)%approach > 0.0_wp
         do
             if (is_warm) then
-                ! A roll that is searched for asks for more digits.
+                ! A roll that is searched for asks for more digits, and rails on springs, which
+                ! follow the forces.
+                tolerance = warm_enough
+                if (demand%roll_is_free .or. any(model%rail_stiffness > 0.0_wp)) &
+                    tolerance = near_enough
                 call start_search(search, load, workspace%wheel(side)%approach, &
-                                  max(demand%tolerance, merge(near_enough, warm_enough, &
-                                                              demand%roll_is_free)), &
-                                  demand%bracket, &
+                                  max(demand%tolerance, tolerance), demand%bracket, &
                                   workspace%wheel(side)%slope)
             else
                 workspace%wheel(side)%n = 0
